@@ -1,0 +1,99 @@
+"""From an image to a drawing: the whole method on one page.
+
+    image -> Scan -> LineMaps -> PlanarGraph -> Routing -> Drawing
+
+Every stage takes the value of the stage before it and returns a new one; see `values`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from os import PathLike
+from time import perf_counter
+
+import numpy as np
+
+from .centerline import provider_for
+from .drawing import Drawing
+from .errors import Cancelled
+from .graph import build_graph, measure
+from .routing import route
+from .scan import read_scan
+from .settings import Settings
+from .solids import split_solids
+
+Progress = Callable[[str, float], None]
+Source = str | PathLike[str] | np.ndarray
+
+# What each stage takes of the whole time, for a progress bar that moves evenly.
+_SHARES = {"scan": 0.1, "solids": 0.05, "centerline": 0.55, "graph": 0.1, "routing": 0.1, "strokes": 0.1}
+
+
+def vectorize(
+    source: Source,
+    settings: Settings | None = None,
+    progress: Progress | None = None,
+    *,
+    page: int = 0,
+) -> Drawing:
+    """Trace one drawing.
+
+    Args:
+        source: path of an image, or an (H, W), (H, W, 3) or (H, W, 4) array, 8 or 16 bit or float
+            in [0, 1].
+        settings: see `Settings`.
+        progress: called as progress(stage, fraction of the whole); may raise `Cancelled`.
+        page: which page of a TIFF with several.
+
+    Returns:
+        The drawing in pixels of the input; `drawing.seconds` says how long each stage took.
+
+    Raises:
+        InvoluteError: the source can't be read, or a setting can't be met.
+        Cancelled: the progress callback asked to stop.
+    """
+    settings = settings or Settings()
+    clock = _Clock(progress)
+    with clock("scan"):
+        scan = read_scan(source, settings, page=page)
+    with clock("solids"):
+        lines, fills = split_solids(scan, settings)
+    with clock("centerline") as tick:
+        maps = provider_for(settings)(lines, tick)
+    with clock("graph"):
+        graph = measure(build_graph(maps, lines.pen_width, settings), lines, maps)
+    with clock("routing"):
+        routing = route(graph, settings)
+    with clock("strokes"):
+        drawing = Drawing.from_routing(graph, routing, scan, settings, fills)
+    return drawing.with_seconds(clock.seconds)
+
+
+class _Clock:
+    """Times each stage and turns its own fraction into the fraction of the whole."""
+
+    def __init__(self, progress: Progress | None) -> None:
+        self.seconds: dict[str, float] = {}
+        self._progress = progress
+        self._stage = ""
+        self._done = 0.0
+
+    def __call__(self, stage: str) -> _Clock:
+        self._stage = stage
+        return self
+
+    def __enter__(self) -> Callable[[float], None]:
+        self._start = perf_counter()
+        self._tick(0.0)
+        return self._tick
+
+    def __exit__(self, *error: object) -> None:
+        self.seconds[self._stage] = perf_counter() - self._start
+        self._done += _SHARES[self._stage]
+
+    def _tick(self, fraction: float) -> None:
+        if self._progress:
+            self._progress(self._stage, min(1.0, self._done + _SHARES[self._stage] * fraction))
+
+
+__all__ = ["Cancelled", "Progress", "Source", "vectorize"]

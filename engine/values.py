@@ -1,0 +1,204 @@
+"""The values that the stages hand to each other: frozen dataclasses over NumPy arrays.
+
+Coordinates are image coordinates in pixels, x to the right, y down; the centre of the pixel in
+column i, row j is (i + 0.5, j + 0.5). Until `strokes`, pixels are working pixels: the drawing at
+the scale where its pens are 2 to 8 px wide; `Scan.scale` leads back to the pixels of the input.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+Array = np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class Scan:
+    """A page, ready to trace.
+
+    ink: (H, W) float32 in [0, 1]; 1 = full ink, paper and shading taken out.
+    color: (H, W, 3) uint8 sRGB over white, or None for a grey page.
+    scale: input pixels per working pixel.
+    size: (width, height) of the input in its own pixels.
+    pen_width: typical width of a line, in working pixels.
+    """
+
+    ink: Array
+    color: Array | None
+    scale: float
+    size: tuple[int, int]
+    pen_width: float
+
+
+@dataclass(frozen=True, eq=False)
+class LineMaps:
+    """What a centerline provider sees in a scan; all maps (H, W) float32.
+
+    centerline: probability that a line's centre runs through the pixel; a ridge about 2 px wide
+        whose crest is the centre of the line.
+    junctions, endpoints: heatmaps in [0, 1], or None.
+    half_width: half the width of the line, in working pixels, valid near the ridge; or None.
+    solid: probability of a solid black area, or None.
+    """
+
+    centerline: Array
+    junctions: Array | None = None
+    endpoints: Array | None = None
+    half_width: Array | None = None
+    solid: Array | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class PlanarGraph:
+    """A planar straight-line graph: one vertex per junction, one polyline per branch.
+
+    vertices: (V, 2) float32, px. Degree 1 = endpoint, >= 3 = junction; degree 2 only for closed
+        loops that pass no junction (both ends of one branch).
+    points: (P, 2) float32, px; the polylines of all branches one after the other. The first and
+        last point of a branch ARE its end vertices.
+    offsets: (B + 1,) int32; branch b is points[offsets[b]:offsets[b + 1]], at least 2 points.
+    ends: (B, 2) int32 vertex ids of the first and last point.
+    widths: (P,) float32 full line width in px, or None before it was measured.
+    strength: (P,) float32 darkness of the ink in [0, 1], or None.
+    colors: (P, 3) uint8 sRGB of the ink, or None.
+
+    Half-branches: 2 * b starts at ends[b, 0], 2 * b + 1 at ends[b, 1]; h ^ 1 is the counterpart.
+    """
+
+    vertices: Array
+    points: Array
+    offsets: Array
+    ends: Array
+    widths: Array | None = None
+    strength: Array | None = None
+    colors: Array | None = None
+
+    @staticmethod
+    def empty() -> PlanarGraph:
+        """The graph of a blank page."""
+        return PlanarGraph(
+            np.zeros((0, 2), np.float32),
+            np.zeros((0, 2), np.float32),
+            np.zeros(1, np.int32),
+            np.zeros((0, 2), np.int32),
+        )
+
+    @property
+    def branch_count(self) -> int:
+        return len(self.offsets) - 1
+
+    def branch(self, index: int) -> Array:
+        """The polyline of one branch, (N, 2)."""
+        return self.points[self.offsets[index] : self.offsets[index + 1]]
+
+    def half_branch(self, half: int) -> Array:
+        """The polyline of the whole branch, read outward from the vertex that `half` starts at."""
+        points = self.branch(half >> 1)
+        return points[::-1] if half & 1 else points
+
+    @cached_property
+    def half_vertex(self) -> Array:
+        """(2B,) int32: the vertex that each half-branch starts at."""
+        return np.ascontiguousarray(self.ends.reshape(-1), np.int32)
+
+    @cached_property
+    def degrees(self) -> Array:
+        """(V,) int32: the number of half-branches at each vertex."""
+        return np.bincount(self.half_vertex, minlength=len(self.vertices)).astype(np.int32)
+
+    @cached_property
+    def halves_at(self) -> tuple[Array, Array]:
+        """Half-branches grouped by vertex: (2B,) ids and (V + 1,) offsets."""
+        order = np.argsort(self.half_vertex, kind="stable").astype(np.int32)
+        starts = np.concatenate([[0], np.cumsum(self.degrees)]).astype(np.int32)
+        return order, starts
+
+    @cached_property
+    def junctions(self) -> Array:
+        """(J,) int32: vertex ids of degree >= 3, ascending; a junction's number indexes this."""
+        return np.flatnonzero(self.degrees >= 3).astype(np.int32)
+
+    def halves_of(self, vertex: int) -> Array:
+        """The half-branches that start at a vertex, ascending."""
+        order, starts = self.halves_at
+        return order[starts[vertex] : starts[vertex + 1]]
+
+
+Pair = tuple[int, int]
+
+
+@dataclass(frozen=True)
+class Alternative:
+    """One way to route a junction: the joined pairs (a < b, ascending) and its probability."""
+
+    pairs: tuple[Pair, ...]
+    probability: float
+
+
+@dataclass(frozen=True, eq=False)
+class Routing:
+    """Which half-branches continue in which: an involution.
+
+    partner: (2B,) int32; partner[partner[h]] == h; partner[h] == h ends the stroke at h's vertex.
+        Partners always start at the same vertex. The two halves of a loop branch without a
+        junction (a circle) are partners of each other.
+    pairs: (K, 2) int32 candidate pairs (a < b, same junction), and
+    pair_score: (K,) float32 log-odds of joining a pair against ending both.
+    alternatives: for each junction (graph.junctions order) the ranked ways to route it.
+    locked: (J,) bool; junctions that the user has fixed.
+    """
+
+    partner: Array
+    pairs: Array
+    pair_score: Array
+    alternatives: tuple[tuple[Alternative, ...], ...]
+    locked: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Stroke:
+    """One line of the drawing, in input pixels.
+
+    points: (N, 2) float32; for a Bezier stroke the anchors.
+    widths: (N,) float32 full width; opacity: (N,) float32 in [0, 1].
+    closed: the last point continues in the first (which is not repeated).
+    color: sRGB 0..255.
+    branches: (n,) int32 half-branches in walking order; h means branch h >> 1, walked from its
+        start when h is even, from its end when h is odd.
+    handles: (N, 2, 2) float32 left and right Bezier handle of every anchor, or None (polyline).
+    """
+
+    points: Array
+    widths: Array
+    opacity: Array
+    closed: bool
+    color: tuple[int, int, int]
+    branches: Array
+    handles: Array | None = None
+
+
+@dataclass(frozen=True)
+class Junction:
+    """A junction as the user sees it; position in input pixels."""
+
+    index: int
+    position: tuple[float, float]
+    half_branches: tuple[int, ...]
+    pairs: tuple[Pair, ...]
+    alternatives: tuple[Alternative, ...]
+    locked: bool
+
+    @property
+    def degree(self) -> int:
+        return len(self.half_branches)
+
+    @property
+    def doubt(self) -> float:
+        """1 - probability of the routing that is in force; 0 when the user has locked it."""
+        if self.locked:
+            return 0.0
+        chosen = (a.probability for a in self.alternatives if a.pairs == self.pairs)
+        return 1.0 - next(chosen, 0.0)
