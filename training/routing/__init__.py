@@ -1,0 +1,1 @@
+"""Data and training for routing: which half-branches continue in which."""
