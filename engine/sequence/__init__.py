@@ -1,0 +1,5 @@
+"""A folder of numbered drawings -> one drawing per frame, with strokes that stay themselves.
+
+frames: names -> frame numbers. matching: which stroke is which from frame to frame. follow: order,
+direction and colour taken over from the frame before. trace: all of it, in parallel processes.
+"""
