@@ -1,0 +1,60 @@
+"""Small changes to a planar graph: keep some branches, join those that meet two by two."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..values import PlanarGraph
+from .chains import follow
+
+Array = np.ndarray
+
+
+def select(graph: PlanarGraph, keep: Array) -> PlanarGraph:
+    """The graph with only the branches (B,) bool that are kept; vertices are renumbered."""
+    counts = np.diff(graph.offsets)
+    ends = graph.ends[keep]
+    used = np.zeros(len(graph.vertices), bool)
+    used[ends] = True
+    number = np.cumsum(used) - 1
+    return PlanarGraph(
+        graph.vertices[used],
+        graph.points[np.repeat(keep, counts)],
+        np.concatenate([[0], np.cumsum(counts[keep])]).astype(np.int32),
+        number[ends].astype(np.int32).reshape(-1, 2),
+    )
+
+
+def join(graph: PlanarGraph) -> PlanarGraph:
+    """Join branches at vertices of degree two, so that only ends, junctions and rings remain."""
+    if graph.branch_count == 0:
+        return PlanarGraph.empty()
+    halves = np.arange(2 * graph.branch_count)
+    order, bounds = follow(graph.half_vertex, halves ^ 1, graph.degrees != 2)
+    branch, flipped = order >> 1, (order & 1).astype(bool)
+    counts = np.diff(graph.offsets)[branch]
+    # Read every branch in walking order; all but the last of a chain leave out their last point.
+    last = np.zeros(len(order), bool)
+    last[bounds[1:] - 1] = True
+    taken = counts - ~last
+    total = np.concatenate([[0], np.cumsum(taken)])
+    within = np.arange(total[-1]) - np.repeat(total[:-1], taken)
+    start = np.where(flipped, graph.offsets[branch + 1] - 1, graph.offsets[branch])
+    step = np.where(flipped, -1, 1)
+    points = graph.points[np.repeat(start, taken) + np.repeat(step, taken) * within]
+    ends = np.stack(
+        [graph.half_vertex[order[bounds[:-1]]], graph.half_vertex[order[bounds[1:] - 1] ^ 1]], -1
+    )
+    joined = PlanarGraph(
+        graph.vertices, points, total[bounds].astype(np.int32), ends.astype(np.int32)
+    )
+    return select(joined, np.ones(joined.branch_count, bool))
+
+
+def lengths(graph: PlanarGraph) -> Array:
+    """(B,) float64: arc length of every branch in px."""
+    if graph.branch_count == 0:
+        return np.zeros(0)
+    steps = np.hypot(*np.diff(graph.points.astype(np.float64), axis=0, append=0).T)
+    steps[graph.offsets[1:] - 1] = 0.0
+    return np.add.reduceat(steps, graph.offsets[:-1])
