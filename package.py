@@ -1,0 +1,154 @@
+"""Builds the extension: `python -m involute.package`, one zip per platform with its two wheels.
+
+The wheels come from `pip download`, pinned by the hashes in wheels.txt, into the ignored folder
+wheels/. The same sources give the same bytes. Standard library only, so that it also runs by path.
+"""
+
+from __future__ import annotations
+
+import argparse
+import hashlib
+import importlib.util
+import re
+import shutil
+import subprocess
+import sys
+import tomllib
+import zipfile
+from collections.abc import Iterator
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent
+WHEELS = ROOT / "wheels"
+SHIPPED = ("LICENSE", "__init__.py", "engine", "operators", "ui")
+PLATFORMS = {  # Blender's name: (part of the OpenCV wheel's file name, pip's --platform)
+    "linux-x64": ("manylinux_2_28_x86_64", "manylinux_2_28_x86_64"),
+    "linux-arm64": ("manylinux_2_28_aarch64", "manylinux_2_28_aarch64"),
+    "windows-x64": ("win_amd64", "win_amd64"),
+    "macos-arm64": ("macosx_13_0_arm64", "macosx_13_0_arm64"),
+    "macos-x64": ("macosx_14_0_x86_64", "macosx_14_0_x86_64"),
+}
+_EPOCH = (2026, 1, 1, 0, 0, 0)  # one date for all files: the zip is reproducible
+
+
+def build(platform: str, output: Path) -> Path:
+    """Build the zip for one platform and return its path."""
+    manifest = (ROOT / "blender_manifest.toml").read_text("utf-8")
+    parsed = tomllib.loads(manifest)
+    wheels = [Path(w) for w in parsed["wheels"] if _fits(Path(w).name, platform)]
+    fetch(platform, [w.name for w in wheels])
+    manifest = _replace_list(manifest, "platforms", [platform])
+    manifest = _replace_list(manifest, "wheels", [f"./{w.as_posix()}" for w in wheels])
+    output.mkdir(parents=True, exist_ok=True)
+    path = output / f"{parsed['id']}-{parsed['version']}-{platform.replace('-', '_')}.zip"
+    with zipfile.ZipFile(path, "w") as archive:
+        _add(archive, "blender_manifest.toml", manifest.encode("utf-8"))
+        for file in sorted(_shipped_files()):
+            _add(archive, file.relative_to(ROOT).as_posix(), file.read_bytes())
+        for wheel in wheels:
+            _add(archive, wheel.as_posix(), (ROOT / wheel).read_bytes())
+    return path
+
+
+def fetch(platform: str, names: list[str]) -> None:
+    """Bring the wheels into wheels/ and check their hashes.
+
+    Raises:
+        SystemExit: a wheel can't be had, or is not the one that was pinned.
+    """
+    if not all((WHEELS / name).exists() for name in names):
+        command = [*_pip(), "download", "--quiet", "--no-deps", "--require-hashes"]
+        command += ["--only-binary=:all:", "--implementation=cp", "--abi=abi3", "--abi=none"]
+        command += ["--python-version=3.11", f"--platform={PLATFORMS[platform][1]}"]
+        command += [f"--dest={WHEELS}", f"--requirement={ROOT / 'wheels.txt'}"]
+        if subprocess.run(command).returncode:
+            raise SystemExit(f"pip could not download the wheels for {platform}.")
+    pinned = set(re.findall(r"sha256:([0-9a-f]{64})", (ROOT / "wheels.txt").read_text("utf-8")))
+    for name in names:
+        if hashlib.sha256((WHEELS / name).read_bytes()).hexdigest() not in pinned:
+            raise SystemExit(f"{name} is not the file that wheels.txt pins; delete it and retry.")
+
+
+def validate(path: Path) -> None:
+    """Let Blender's own checker judge the zip; needs the `bpy` package, which brings it."""
+    spec = importlib.util.find_spec("bpy")
+    if spec is None or not spec.submodule_search_locations:
+        raise SystemExit("Validating needs bpy: install the extra 'blender', or use --no-validate.")
+    found = Path(spec.submodule_search_locations[0]).glob(
+        "*/scripts/addons_core/bl_pkg/cli/blender_ext.py"
+    )
+    subprocess.run([sys.executable, str(next(found)), "validate", str(path)], check=True)
+
+
+def host_platform() -> str:
+    """Blender's name for the platform this runs on."""
+    import platform as machine
+
+    system = {"linux": "linux", "win32": "windows", "darwin": "macos"}[sys.platform]
+    arm = machine.machine().lower() in {"arm64", "aarch64"}
+    return f"{system}-{'arm64' if arm else 'x64'}"
+
+
+def main(argv: list[str] | None = None) -> int:
+    parser = argparse.ArgumentParser(prog="python -m involute.package", description=__doc__)
+    parser.add_argument("-o", "--output", type=Path, default=ROOT / "dist", help="folder for zips")
+    parser.add_argument(
+        "--platform",
+        nargs="+",
+        choices=[*PLATFORMS, "host"],
+        default=list(PLATFORMS),
+        metavar="NAME",
+        help="default: all of " + ", ".join(PLATFORMS) + "; host = this machine's",
+    )
+    parser.add_argument("--no-validate", action="store_true", help="don't run Blender's checker")
+    options = parser.parse_args(argv)
+    for name in options.platform:
+        path = build(host_platform() if name == "host" else name, options.output)
+        if not options.no_validate:
+            validate(path)
+        digest = hashlib.sha256(path.read_bytes()).hexdigest()
+        print(f"{path}  {path.stat().st_size / 1e6:.1f} MB  sha256 {digest}")
+    return 0
+
+
+def _fits(wheel: str, platform: str) -> bool:
+    return wheel.endswith("-any.whl") or wheel.endswith(f"-{PLATFORMS[platform][0]}.whl")
+
+
+def _replace_list(manifest: str, key: str, values: list[str]) -> str:
+    """The manifest with another list under one key, comments and order kept."""
+    quoted = ", ".join(f'"{value}"' for value in values)
+    text = f"{key} = [{quoted}]"
+    changed, count = re.subn(rf"^{key} = \[.*?\]$", text, manifest, flags=re.M | re.S)
+    if count != 1:
+        raise SystemExit(f"blender_manifest.toml must have exactly one list {key!r}.")
+    return changed
+
+
+def _shipped_files() -> Iterator[Path]:
+    for part in SHIPPED:
+        path = ROOT / part
+        files = path.rglob("*") if path.is_dir() else [path]
+        yield from (f for f in files if f.is_file() and "__pycache__" not in f.parts)
+
+
+def _add(archive: zipfile.ZipFile, name: str, content: bytes) -> None:
+    info = zipfile.ZipInfo(name, _EPOCH)
+    info.external_attr = 0o644 << 16
+    # Wheels are zips already.
+    info.compress_type = zipfile.ZIP_STORED if name.endswith(".whl") else zipfile.ZIP_DEFLATED
+    archive.writestr(info, content)
+
+
+def _pip() -> list[str]:
+    if importlib.util.find_spec("pip"):
+        return [sys.executable, "-m", "pip"]
+    if pip := shutil.which("pip"):
+        return [pip]
+    if uv := shutil.which("uv"):
+        return [uv, "tool", "run", "pip"]
+    raise SystemExit("Fetching the wheels needs pip: install it, or put them in wheels/.")
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
