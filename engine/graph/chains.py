@@ -26,6 +26,7 @@ def follow(source: Array, back: Array, is_node: Array) -> tuple[Array, Array]:
     """
     source = source.astype(np.int32)
     is_node = is_node.copy()
+    is_node[source[source == source[back]]] = True  # an edge from a point to itself
     rings = _ring_starts(source, _next(source, back, is_node))
     is_node[rings] = True
 
