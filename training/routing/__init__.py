@@ -1,1 +1,1 @@
-"""Data and training for routing: which half-branches continue in which."""
+"""Learning to route: pages of true strokes, planar graphs, the network, its training and export."""

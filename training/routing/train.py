@@ -1,0 +1,116 @@
+"""Train the routing network: `python -m training.routing.train --data DIR --out DIR`.
+
+Resumable: a run that finds its own checkpoint in --out goes on where it stopped. Every
+evaluation is a line of JSON in --out/log.jsonl.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import time
+from pathlib import Path
+
+import numpy as np
+import torch
+
+from . import likelihood
+from .augment import augmented
+from .data import Bank, Batch, encoded, joined, true_page
+from .judge import Verdict, judge
+from .model import RoutingNet
+from .pages import Library
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--data", type=Path, required=True, help="folder of SOURCE.npz drawings")
+    parser.add_argument("--out", type=Path, required=True)
+    parser.add_argument("--steps", type=int, default=12000)
+    parser.add_argument("--junctions", type=int, default=600, help="junctions a step")
+    parser.add_argument("--rate", type=float, default=2e-3)
+    parser.add_argument("--loss", choices=("exact", "sinkhorn"), default="exact")
+    parser.add_argument("--width", type=int, default=64)
+    parser.add_argument("--every", type=int, default=500, help="steps between evaluations")
+    parser.add_argument("--minutes", type=float, default=1e9, help="stop after so much CPU time")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--device", default="cpu", help="cpu, cuda or mps")
+    parser.add_argument("--start", type=Path, help="weights to start from")
+    train(parser.parse_args())
+
+
+def train(args: argparse.Namespace) -> None:
+    """Run the training that the arguments describe."""
+    args.out.mkdir(parents=True, exist_ok=True)
+    torch.manual_seed(args.seed)
+    net = RoutingNet(args.width).to(args.device)
+    if args.start:
+        net.load_state_dict(torch.load(args.start, map_location=args.device)["net"])
+    optimizer = torch.optim.AdamW(net.parameters(), lr=args.rate, weight_decay=0.01)
+    checkpoint, first = args.out / "checkpoint.pt", 0
+    if checkpoint.exists():
+        saved = torch.load(checkpoint, map_location=args.device)
+        net.load_state_dict(saved["net"])
+        optimizer.load_state_dict(saved["optimizer"])
+        first = saved["step"]
+    bank = Bank(Library.load(args.data, held_out=False), args.seed * 1000 + first)
+    held_out = validation(Library.load(args.data, held_out=True))
+    loss_of = getattr(likelihood, args.loss)
+    started, running = time.process_time(), []
+    for step in range(first, args.steps):
+        warm = min(1.0, (step + 1) / 200)
+        for group in optimizer.param_groups:
+            group["lr"] = args.rate * warm * (0.02 + 0.49 * (1 + np.cos(np.pi * step / args.steps)))
+        # Junctions of more than six are rare: a wider table is only now and then worth its time.
+        batch = bank.batch(args.junctions, 8 if step % 5 == 0 else 6)
+        scores = run(net, batch, args.device)
+        mask, truth, asked = (
+            torch.from_numpy(a).to(args.device) for a in (batch.mask, batch.truth, batch.asked)
+        )
+        loss = (loss_of(scores, mask, truth) * asked).sum() / asked.sum().clamp(min=1)
+        optimizer.zero_grad()
+        loss.backward()
+        torch.nn.utils.clip_grad_norm_(net.parameters(), 1.0)
+        optimizer.step()
+        running.append(float(loss.detach()))
+        spent = (time.process_time() - started) / 60
+        stop = spent > args.minutes or step + 1 == args.steps
+        if stop or (step + 1) % args.every == 0:
+            record = {"step": step + 1, "minutes": round(spent, 2), "loss": np.mean(running)}
+            for name, part in held_out.items():
+                record[name] = evaluate(net, part, args.device).summary()
+            running = []
+            with (args.out / "log.jsonl").open("a") as log:
+                log.write(json.dumps(record, default=float) + "\n")
+            state = {"net": net.state_dict(), "config": net.config, "step": step + 1}
+            torch.save({**state, "optimizer": optimizer.state_dict()}, checkpoint)
+        if stop:
+            break
+
+
+def run(net: RoutingNet, batch: Batch, device: str) -> torch.Tensor:
+    """(J, D, D) scores of a batch."""
+    arrays = (batch.tokens, batch.pairs, batch.sibling.astype(np.int64), batch.mask)
+    return net(*(torch.from_numpy(a).to(device) for a in arrays))
+
+
+@torch.no_grad()
+def evaluate(net: RoutingNet, batch: Batch, device: str = "cpu") -> Verdict:
+    """How the network decides the junctions of a batch."""
+    return judge(run(net, batch, device).cpu().numpy(), batch.mask, batch.truth)
+
+
+def validation(library: Library, pages: int = 60, seed: int = 5) -> dict[str, Batch]:
+    """Held-out pages: as drawn ("true"), and as roughly traced ("rough")."""
+    rng = np.random.default_rng(seed)
+    drawn, rough = [], []
+    while len(drawn) < pages:
+        page = true_page(library.page(rng))
+        if len(page.graph.junctions):
+            drawn.append(encoded(page, {}, 8))
+            rough.append(encoded(augmented(rng, page), {}, 8))
+    return {"true": joined(drawn), "rough": joined([part for part in rough if len(part.mask)])}
+
+
+if __name__ == "__main__":
+    main()
