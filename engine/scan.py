@@ -20,7 +20,7 @@ from .values import Array, Scan
 Source = str | PathLike[str] | np.ndarray
 
 MIN_SIDE, MAX_SIDE = 16, 20_000
-_PEN_RANGE = (2.0, 8.0)  # working pixels
+_PEN_RANGE = (1.5, 8.0)  # working pixels
 _PEN_TARGET = (2.5, 6.0)  # what a pen outside that range is brought to
 _MAX_WORKING = 100e6  # working pixels of one page: bounds memory and time at 20,000 px
 _DEFAULT_PEN = 3.0  # of a page without a line
@@ -70,6 +70,9 @@ def page_count(path: str | PathLike[str]) -> int:
 def flatten_paper(gray: Array) -> Array:
     """Take paper, shading and grain out of a page of dark lines.
 
+    Two passes: the lightest spots give a first guess of the paper; what that guess calls bare
+    paper then gives its true mean and its grain, so that grain ends up around 0 and can be gated.
+
     Args:
         gray: (H, W) float32 luminance in [0, 1]; 0 = black.
 
@@ -77,62 +80,123 @@ def flatten_paper(gray: Array) -> Array:
         ink, (H, W) float32 in [0, 1]: 0 on paper, about 1 on a full pen stroke, anti-aliased.
     """
     gray = np.ascontiguousarray(gray, np.float32)
-    darkness = 1.0 - gray / _paper(gray)
-    grain = _grain(darkness)
-    darkness = np.maximum(darkness - 2.5 * grain, 0.0)
-    level = _pen_level(darkness)
-    return np.minimum(darkness / level, 1.0)
+    rough = 1.0 - gray / _light_paper(gray)
+    bare = (rough < 0.04 + 3.0 * _texture(rough)).astype(np.float32)
+    share = _to_grid(bare)
+    known = share > 0.1
+    mean = _smooth_fill(_to_grid(rough * bare) / np.maximum(share, 1e-3), known)
+    darkness = rough - _from_grid(mean, gray.shape)
+    _gate(darkness, bare)
+    return np.minimum(darkness / _pen_level(darkness), 1.0)
 
 
-def _paper(gray: Array) -> Array:
-    """The luminance that the bare paper has at each pixel; (H, W) float32, never 0."""
-    height, width = gray.shape
+def _light_paper(gray: Array) -> Array:
+    """A first guess of the paper's luminance at each pixel: the lightest spots around it."""
     smooth = cv2.blur(gray, (3, 3), borderType=cv2.BORDER_REPLICATE)
-    block = cv2.dilate(smooth, np.ones((_BLOCK, _BLOCK), np.uint8))
-    grid = block[_BLOCK // 2 :: _BLOCK, _BLOCK // 2 :: _BLOCK]
-    grid = cv2.medianBlur(np.ascontiguousarray(grid), 5)
-    # Areas far darker than the lightest paper around them are solid ink, not shadow.
-    reach = max(3, min(grid.shape) // 2 | 1)
-    bright = cv2.morphologyEx(grid, cv2.MORPH_CLOSE, np.ones((reach, reach), np.uint8))
-    weight = (grid > 0.5 * bright).astype(np.float32)
-    fill, norm = grid * weight, weight.copy()
-    for sigma in (2, 4, 8, 16, 32, 64):
-        near = cv2.GaussianBlur(grid * weight, (0, 0), sigma)
-        mass = cv2.GaussianBlur(weight, (0, 0), sigma)
-        empty = norm < 0.05
-        fill[empty], norm[empty] = near[empty], mass[empty]
-    grid = cv2.GaussianBlur(fill / np.maximum(norm, 1e-3), (0, 0), 1.5)
-    paper = cv2.resize(grid, (width, height), interpolation=cv2.INTER_LINEAR)
-    return np.maximum(paper, 0.05)
+    grid = cv2.medianBlur(_block_max(smooth), 5)
+    # What is far darker than the lightest paper in a wide circle is solid ink, not shadow.
+    coarse = cv2.resize(grid, None, fx=0.125, fy=0.125, interpolation=cv2.INTER_AREA)
+    reach = np.ones((max(3, coarse.shape[0] // 2), max(3, coarse.shape[1] // 2)), np.uint8)
+    bright = cv2.morphologyEx(coarse, cv2.MORPH_CLOSE, reach)
+    bright = cv2.resize(bright, grid.shape[::-1], interpolation=cv2.INTER_LINEAR)
+    return np.maximum(_from_grid(_smooth_fill(grid, grid > 0.5 * bright), gray.shape), 0.05)
 
 
-def _grain(darkness: Array) -> float:
-    """Standard deviation of the paper's noise, from the median of small differences."""
-    high = darkness - cv2.GaussianBlur(darkness, (0, 0), 1.5)
-    return float(np.median(np.abs(high[::2, ::2]))) / 0.6745
+def _texture(rough: Array) -> Array:
+    """A first guess of the grain (standard deviation) at each pixel, kept below hatching's."""
+    high = np.abs(rough - cv2.GaussianBlur(rough, (0, 0), 1.5))
+    return _from_grid(np.minimum(1.25 * cv2.medianBlur(_to_grid(high), 5), 0.06), rough.shape)
+
+
+def _gate(darkness: Array, bare: Array) -> None:
+    """Shut out, in place, what is as weak as the grain; what is clearly darker stays as it is.
+
+    Judged on smoothed ink, where grain is weaker and the gaps in a pencil line are closed.
+    """
+    smooth = cv2.GaussianBlur(darkness, (0, 0), 1.2)
+    calm = cv2.erode(bare, np.ones((5, 5), np.uint8))  # not the foot of a line
+    share = _to_grid(calm)
+    variance = _to_grid(np.square(smooth) * calm) / np.maximum(share, 1e-3)
+    grain = np.sqrt(_smooth_fill(variance, share > 0.1))
+    low = _from_grid(3.0 * grain + 0.005, darkness.shape)
+    darkness *= np.clip((smooth - low) / (0.6 * low), 0.0, 1.0)
+    np.maximum(darkness, 0.0, out=darkness)
 
 
 def _pen_level(darkness: Array) -> Array:
     """The darkness of a full stroke around each pixel: between the page's and the local one."""
-    height, width = darkness.shape
-    peak = cv2.dilate(darkness, np.ones((_BLOCK, _BLOCK), np.uint8))
-    grid = np.ascontiguousarray(peak[_BLOCK // 2 :: _BLOCK, _BLOCK // 2 :: _BLOCK])
-    inked = grid[grid > 0.06]
-    page = float(np.percentile(inked, 90)) if inked.size else 1.0
-    local = cv2.dilate(grid, np.ones((7, 7), np.uint8))
-    local = cv2.GaussianBlur(local, (0, 0), 3)
-    local = cv2.resize(local, (width, height), interpolation=cv2.INTER_LINEAR)
-    return np.sqrt(np.clip(local, 0.15 * page, page) * page)
+    peak = _block_max(cv2.GaussianBlur(darkness, (0, 0), 0.6))
+    inked = peak[peak > 0.06]
+    page = float(np.percentile(inked, 80)) if inked.size else 1.0
+    local = cv2.GaussianBlur(cv2.dilate(peak, np.ones((7, 7), np.uint8)), (0, 0), 3)
+    return _from_grid(np.sqrt(np.clip(local, 0.15 * page, page) * page), darkness.shape)
+
+
+def _block_max(image: Array) -> Array:
+    """The largest value around the centre of each block of the grid."""
+    peak = cv2.dilate(image, np.ones((_BLOCK, _BLOCK), np.uint8))
+    return np.ascontiguousarray(peak[_BLOCK // 2 :: _BLOCK, _BLOCK // 2 :: _BLOCK])
+
+
+def _to_grid(image: Array) -> Array:
+    """The mean of each block."""
+    height, width = image.shape
+    blocks = (
+        max(1, (width + _BLOCK // 2 - 1) // _BLOCK),
+        max(1, (height + _BLOCK // 2 - 1) // _BLOCK),
+    )
+    return cv2.resize(image, blocks, interpolation=cv2.INTER_AREA)
+
+
+def _from_grid(grid: Array, shape: tuple[int, int]) -> Array:
+    return cv2.resize(grid, shape[::-1], interpolation=cv2.INTER_LINEAR)
+
+
+def _smooth_fill(grid: Array, known: Array) -> Array:
+    """Smooth the known values and carry them into the unknown blocks (push-pull pyramid)."""
+    weight = known.astype(np.float32)
+    mass = cv2.GaussianBlur(weight, (0, 0), 1.5)
+    near = cv2.GaussianBlur(grid * weight, (0, 0), 1.5) / np.maximum(mass, 1e-6)
+    if mass.min() > 0.05 or min(grid.shape) < 3:
+        return near if mass.any() else grid
+    far = _smooth_fill(
+        cv2.pyrDown(near * mass) / np.maximum(cv2.pyrDown(mass), 1e-6), cv2.pyrDown(mass) > 0.02
+    )
+    return np.where(mass > 0.05, near, cv2.pyrUp(far, dstsize=grid.shape[::-1]))
 
 
 def measure_pen(ink: Array) -> float:
-    """Typical full width of the lines in an ink map, px; 0 when there are none."""
-    solid = (ink > 0.5).astype(np.uint8)
-    distance = cv2.distanceTransform(solid, cv2.DIST_L2, cv2.DIST_MASK_PRECISE)
-    crest = (distance >= cv2.dilate(distance, np.ones((3, 3), np.uint8))) & (distance > 0)
-    if not crest.any():
-        return 0.0
-    return float(np.median(2.0 * distance[crest] - 0.5))
+    """Typical full width of the lines in an ink map, px; 0 when there are none.
+
+    Looks at the windows with the most ink, at twice their resolution: half a pixel counts.
+    """
+    crests = [_crest_widths(window) for window in _inkiest_windows(ink)]
+    widths = np.concatenate(crests) if crests else np.zeros(0)
+    return float(np.median(widths)) if widths.size else 0.0
+
+
+def _inkiest_windows(ink: Array, side: int = 512, most: int = 16) -> list[Array]:
+    rows, columns = (-(-n // side) for n in ink.shape)
+    tiles = [
+        ink[r * side : (r + 1) * side, c * side : (c + 1) * side]
+        for r in range(rows)
+        for c in range(columns)
+    ]
+    tiles.sort(key=lambda tile: -float(tile[::3, ::3].sum()))
+    return tiles[:most]
+
+
+def _crest_widths(ink: Array) -> Array:
+    """The width at every pixel of the lines' crests; wide areas count no more than lines."""
+    big = cv2.resize(
+        cv2.GaussianBlur(ink, (0, 0), 0.7), None, fx=2, fy=2, interpolation=cv2.INTER_LINEAR
+    )
+    peak = cv2.dilate(big, np.ones((13, 13), np.uint8))
+    dark = (big > np.maximum(0.5 * peak, 0.2)).astype(np.uint8)
+    distance = cv2.distanceTransform(dark, cv2.DIST_L2, cv2.DIST_MASK_PRECISE)
+    crest = (distance > 0) & (distance >= cv2.dilate(distance, np.ones((3, 3), np.uint8)))
+    widths = distance[crest] - 0.5
+    return np.sqrt(np.maximum(widths**2 - 2.7, 1.0))  # less what the blur above has added
 
 
 def _working_scale(pen: float, pixels: int) -> float:
