@@ -1,0 +1,173 @@
+"""The result of a trace, and every change that a user can make to its routing.
+
+A drawing is never changed: every method returns a new one. Strokes that a change does not touch
+are the same objects in the new drawing, so whoever shows them can tell by identity.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from os import PathLike
+
+import numpy as np
+
+from .errors import InvoluteError
+from .routing import checked_pairs, route
+from .settings import Settings
+from .strokes import build, walk
+from .values import Junction, Pair, PlanarGraph, Routing, Scan, Stroke
+
+Array = np.ndarray
+Fill = tuple[Array, ...]
+
+DOUBTFUL = 0.1  # a junction is doubtful when another routing is at least this probable
+
+
+@dataclass(frozen=True, eq=False)
+class Drawing:
+    """One traced drawing, in pixels of the input.
+
+    graph: all lines, cut at junctions.
+    routing: which half-branches continue in which.
+    strokes: the lines, sorted by their lowest branch.
+    fills: solid areas; each the rings of one area, (N, 2) float32, the outer one first, then holes.
+    size: (width, height).
+    seconds: how long each stage took.
+    """
+
+    graph: PlanarGraph
+    routing: Routing
+    strokes: tuple[Stroke, ...]
+    fills: tuple[Fill, ...]
+    size: tuple[int, int]
+    settings: Settings
+    seconds: Mapping[str, float] = field(default_factory=dict)
+
+    @classmethod
+    def from_routing(
+        cls,
+        graph: PlanarGraph,
+        routing: Routing,
+        scan: Scan,
+        settings: Settings,
+        fills: Iterable[Fill] = (),
+    ) -> Drawing:
+        """Make the strokes of a routed graph; graph and fills come in working pixels."""
+        widths = graph.widths
+        if widths is None:
+            widths = np.full(len(graph.points), scan.pen_width, np.float32)
+        scale = np.float32(scan.scale)
+        graph = replace(
+            graph,
+            vertices=graph.vertices * scale,
+            points=graph.points * scale,
+            widths=widths * scale,
+        )
+        return cls(
+            graph=graph,
+            routing=routing,
+            strokes=tuple(build(graph, walk(routing.partner), settings)),
+            fills=tuple(tuple(ring * scale for ring in fill) for fill in fills),
+            size=scan.size,
+            settings=settings,
+        )
+
+    def with_seconds(self, seconds: Mapping[str, float]) -> Drawing:
+        """The same drawing with the time that each stage took."""
+        return replace(self, seconds=dict(seconds))
+
+    @cached_property
+    def junctions(self) -> tuple[Junction, ...]:
+        """All junctions as the user sees them, in graph.junctions order."""
+        graph, routing = self.graph, self.routing
+        found = []
+        for index, vertex in enumerate(graph.junctions):
+            halves = graph.halves_of(vertex)
+            mates = routing.partner[halves]
+            found.append(
+                Junction(
+                    index=index,
+                    position=(float(graph.vertices[vertex, 0]), float(graph.vertices[vertex, 1])),
+                    half_branches=tuple(halves.tolist()),
+                    pairs=tuple((a, b) for a, b in zip(halves.tolist(), mates.tolist()) if a < b),  # noqa: B905
+                    alternatives=routing.alternatives[index],
+                    locked=bool(routing.locked[index]),
+                )
+            )
+        return tuple(found)
+
+    @property
+    def doubtful(self) -> tuple[int, ...]:
+        """The doubtful junctions that are not locked, most doubtful first."""
+        doubt = np.array([junction.doubt for junction in self.junctions])
+        order = np.argsort(-doubt, kind="stable")
+        return tuple(int(index) for index in order if doubt[index] >= DOUBTFUL)
+
+    def reroute(self, junction: int, pairs: Iterable[Pair]) -> Drawing:
+        """Join exactly these half-branches at a junction, end the others there, and lock it.
+
+        Raises:
+            InvoluteError: not disjoint pairs of half-branches of that junction.
+        """
+        pairs = checked_pairs(self.graph, junction, tuple(pairs))
+        halves = self.graph.halves_of(self.graph.junctions[junction])
+        partner = self.routing.partner.copy()
+        partner[halves] = halves
+        for a, b in pairs:
+            partner[a], partner[b] = b, a
+        return self._with_partner(partner)._with_locked([junction], True)
+
+    def lock(self, junction: int) -> Drawing:
+        """Keep this junction as it is: it counts as certain, and `ask_again` learns from it."""
+        return self._with_locked([junction], True)
+
+    def unlock(self, junction: int) -> Drawing:
+        """Let `ask_again` decide this junction anew."""
+        return self._with_locked([junction], False)
+
+    def accept_above(self, probability: float) -> Drawing:
+        """Lock every junction whose routing is at least this probable."""
+        sure = [j.index for j in self.junctions if not j.locked and 1 - j.doubt >= probability]
+        return self._with_locked(sure, True)
+
+    def ask_again(self) -> Drawing:
+        """Route the junctions that are not locked anew, given those that are."""
+        fixed = {j.index: j.pairs for j in self.junctions if j.locked}
+        routing = route(self.graph, self.settings, fixed)
+        return replace(self._with_partner(routing.partner), routing=routing)
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Write the drawing; the suffix says how (.json keeps everything)."""
+        from .formats import save
+
+        save(self, path)
+
+    @staticmethod
+    def load(path: str | PathLike[str]) -> Drawing:
+        """Read a drawing that `save` wrote."""
+        from .formats import load
+
+        return load(path)
+
+    def _with_locked(self, junctions: Iterable[int], value: bool) -> Drawing:
+        locked = self.routing.locked.copy()
+        for junction in junctions:
+            if not 0 <= junction < len(locked):
+                raise InvoluteError(f"There is no junction {junction}; there are {len(locked)}.")
+            locked[junction] = value
+        return replace(self, routing=replace(self.routing, locked=locked))
+
+    def _with_partner(self, partner: Array) -> Drawing:
+        """Walk anew what the changed half-branches belong to; keep all other strokes."""
+        old = self.routing.partner
+        changed = set((np.flatnonzero(partner != old) >> 1).tolist())
+        again = [s for s in self.strokes if not changed.isdisjoint((s.branches >> 1).tolist())]
+        branches = changed.union(*((s.branches >> 1).tolist() for s in again))
+        gone = {id(s) for s in again}
+        kept = [s for s in self.strokes if id(s) not in gone]
+        made = build(self.graph, walk(partner, branches), self.settings)
+        strokes = sorted([*kept, *made], key=lambda s: int(s.branches.min()) >> 1)
+        routing = replace(self.routing, partner=np.asarray(partner, np.int32))
+        return replace(self, strokes=tuple(strokes), routing=routing)
