@@ -1,0 +1,148 @@
+"""Order, direction and colour of strokes, taken over from the frame before.
+
+Blender pairs the strokes of two keyframes by their number when it interpolates, and from start to
+end; so a line keeps its number, its direction and its ink for as long as it can be followed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+
+import cv2
+import numpy as np
+
+from ..drawing import Drawing
+from ..values import Array, Stroke
+from .matching import SAMPLES, Matches, match_strokes, sample_strokes
+
+_SAME_INK = 25.0  # CIE Lab distance below which two frames mean one ink
+
+Color = tuple[int, int, int]
+
+
+@dataclass
+class Follower:
+    """Takes the drawings of a sequence in order and hands them back with steady strokes.
+
+    inks: every ink seen so far; a later frame's own shade of one becomes exactly that colour.
+    strokes: those of the last frame.
+    """
+
+    inks: list[Color] = field(default_factory=list)
+    strokes: tuple[Stroke, ...] = ()
+
+    def __call__(self, drawing: Drawing) -> Drawing:
+        """The same drawing; strokes reordered, reversed, recoloured, none changed in shape."""
+        strokes = _with_known_inks(drawing.strokes, self.inks)
+        if self.strokes and strokes:
+            strokes = follow(self.strokes, strokes)
+        self.strokes = strokes or self.strokes
+        return replace(drawing, strokes=strokes)
+
+
+def follow(old: Sequence[Stroke], new: Sequence[Stroke]) -> tuple[Stroke, ...]:
+    """The new strokes in the order and direction of the old ones that they match.
+
+    A stroke that vanished leaves its number to a newcomer of the same ink, the nearest one, so that
+    the numbers after it stay; newcomers left over come last. A newcomer runs the way that the old
+    lines around it run.
+    """
+    matches = match_strokes(old, new)
+    strokes = list(new)
+    for k, mate, start, flipped in zip(
+        matches.new, matches.old, matches.start, matches.flipped, strict=True
+    ):
+        strokes[k] = _started_like(strokes[k], old[mate], start)
+        if flipped:
+            strokes[k] = reverse(strokes[k])
+    newcomers = np.setdiff1d(np.arange(len(new)), matches.new)
+    for k in newcomers[_against_the_grain(old, new, newcomers, matches)]:
+        strokes[k] = reverse(strokes[k])
+    return tuple(strokes[k] for k in np.argsort(_slots(old, new, matches), kind="stable"))
+
+
+def reverse(stroke: Stroke) -> Stroke:
+    """The same stroke drawn the other way; a closed one still starts at the same point."""
+    turned = _reordered(stroke, np.arange(len(stroke.points))[::-1])
+    if stroke.closed:
+        turned = _reordered(turned, np.roll(np.arange(len(stroke.points)), 1))
+    handles = None if turned.handles is None else turned.handles[:, ::-1]
+    return replace(turned, branches=stroke.branches[::-1] ^ 1, handles=handles)
+
+
+def _started_like(stroke: Stroke, old: Stroke, share: float) -> Stroke:
+    """A closed stroke that starts where the old one does: about that share of its length along."""
+    if not stroke.closed:
+        return stroke
+    around = np.vstack([stroke.points, stroke.points[:1]])
+    along = np.concatenate([[0], np.cumsum(np.hypot(*np.diff(around, axis=0).T))])
+    off = np.abs((along[:-1] / along[-1] - share + 0.5) % 1.0 - 0.5)
+    start = old.points[0] + stroke.points.mean(axis=0) - old.points.mean(axis=0)
+    there = np.hypot(*(stroke.points - start).T) / along[-1]
+    first = int(np.where(off <= max(off.min(), 1 / SAMPLES), there, np.inf).argmin())
+    return _reordered(stroke, np.roll(np.arange(len(stroke.points)), -first))
+
+
+def _reordered(stroke: Stroke, index: Array) -> Stroke:
+    """The stroke with its points, and all that belongs to them, in another order."""
+    return replace(
+        stroke,
+        points=stroke.points[index],
+        widths=stroke.widths[index],
+        opacity=stroke.opacity[index],
+        handles=None if stroke.handles is None else stroke.handles[index],
+    )
+
+
+def _slots(old: Sequence[Stroke], new: Sequence[Stroke], matches: Matches) -> Array:
+    """The number that each new stroke takes over; those beyond the old ones follow after them."""
+    slots = np.full(len(new), len(old) + len(new))
+    slots[matches.new] = matches.old
+    free = np.setdiff1d(np.arange(len(old)), matches.old)
+    waiting = np.setdiff1d(np.arange(len(new)), matches.new)
+    if len(free) and len(waiting):
+        there, here = ([s.points.mean(axis=0) for s in frame] for frame in (old, new))
+        for k in waiting:
+            same_ink = [f for f in free if old[f].color == new[k].color]
+            if same_ink:
+                slots[k] = min(same_ink, key=lambda f: np.hypot(*(there[f] - here[k])))
+                free = free[free != slots[k]]
+    return slots
+
+
+def _against_the_grain(
+    old: Sequence[Stroke], new: Sequence[Stroke], newcomers: Array, matches: Matches
+) -> Array:
+    """(n,) bool: newcomers that run against the old lines nearest to them."""
+    if len(newcomers) == 0:
+        return np.zeros(0, bool)
+    before = sample_strokes(old)
+    before = cv2.transform(before, matches.motion).reshape(before.shape)
+    after = sample_strokes([new[k] for k in newcomers])
+    tree = cv2.flann_Index(before.reshape(-1, 2), {"algorithm": 4, "leaf_max_size": 10})
+    near, squared = tree.knnSearch(after.reshape(-1, 2), 1, params={"checks": -1})
+    there = np.gradient(before, axis=1).reshape(-1, 2)[near[:, 0]]
+    here = np.gradient(after, axis=1).reshape(-1, 2)
+    size = np.hypot(*there.T) * np.hypot(*here.T) + 1e-9
+    vote = (there * here).sum(axis=1) / size / (4.0 + squared[:, 0])
+    return vote.reshape(len(newcomers), -1).sum(axis=1) < 0
+
+
+def _with_known_inks(strokes: Sequence[Stroke], inks: list[Color]) -> tuple[Stroke, ...]:
+    """Strokes whose colours are among `inks`, which grows by those not seen before."""
+    known: dict[Color, Color] = {}
+    for color in dict.fromkeys(s.color for s in strokes):
+        distances = [float(np.linalg.norm(_lab(color) - _lab(ink))) for ink in inks]
+        if distances and min(distances) < _SAME_INK:
+            known[color] = inks[int(np.argmin(distances))]
+        else:
+            inks.append(color)
+            known[color] = color
+    return tuple(
+        s if known[s.color] == s.color else replace(s, color=known[s.color]) for s in strokes
+    )
+
+
+def _lab(color: Color) -> Array:
+    return cv2.cvtColor(np.float32([[color]]) / 255, cv2.COLOR_RGB2Lab)[0, 0]
