@@ -149,7 +149,7 @@ def evaluate(predicted: Sequence[Array], truth: Sequence[Array], *, failed: bool
     Args:
         predicted, truth: polylines (N, 2) in px, both scaled to a long side of 1024 px, as
             `read_svg` and `scaled` give them; a closed stroke repeats its first point.
-        failed: nothing was traced, because of an error; counts as all wrong.
+        failed: nothing was traced, because of an error; counts as all wrong, wrong joins too.
     """
     pred, true = Strokes(predicted), Strokes(truth)
     found, actual = crossings(pred), crossings(true)
@@ -173,7 +173,7 @@ def evaluate(predicted: Sequence[Array], truth: Sequence[Array], *, failed: bool
         continuations=continuations,
         continuations_kept=kept,
         wrong_joins=wrong,
-        wrong_joins_made=made,
+        wrong_joins_made=wrong if failed else made,
         failed=failed,
     )
 
@@ -181,7 +181,8 @@ def evaluate(predicted: Sequence[Array], truth: Sequence[Array], *, failed: bool
 def summarize(scores: Iterable[Score]) -> dict[str, float]:
     """The figures of many drawings: medians of what a drawing has, ratios of what is counted.
 
-    A failed drawing has an infinite Chamfer distance and density, and finds nothing.
+    A failed drawing has an infinite Chamfer distance and density, finds nothing, and makes every
+    wrong join.
     """
     scores = list(scores)
 

@@ -19,8 +19,8 @@ def trace(path: str | PathLike[str]) -> list[Array]:
     _, page = cv2.threshold(grey, 0, 255, cv2.THRESH_BINARY | cv2.THRESH_OTSU)
     options = TraceOptions(centerline=True, background_color=Color(255, 255, 255))
     vector = Bitmap(cv2.cvtColor(page, cv2.COLOR_GRAY2RGB)).trace(options=options)
-    # Its y axis points up.
-    return [_line(p) * (1, -1) + (0, grey.shape[0]) for p in vector.paths if len(p)]
+    # Its y axis points up, and starts half a pixel lower.
+    return [_line(p) * (1, -1) + (0, grey.shape[0] - 0.5) for p in vector.paths if len(p)]
 
 
 def _line(path: object) -> Array:

@@ -1,0 +1,184 @@
+"""How good the strokes are, ours and the rivals', on the drawings of `benchmarks/data`.
+
+    python -m benchmarks.quality [--data DIR] [--methods NAME ...] [--jobs 2] [--json FILE]
+
+Chamfer, length difference, density (r_SD) and F1 are medians over the drawings; all else is pooled
+over the junctions of all drawings. A drawing that fails counts as all wrong. See `metrics`.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import sys
+import time
+from collections.abc import Iterable, Iterator
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import asdict, dataclass
+from multiprocessing import get_context
+from pathlib import Path
+
+import numpy as np
+
+from .drawings import DATA, Page, pages
+from .methods import METHODS
+from .metrics import Score, evaluate, summarize
+
+# Column of the table: figure, how to print it, which way is better.
+COLUMNS = {
+    "Chamfer px": ("chamfer", "{:.2f}"),
+    "length diff px": ("length_diff", "{:.0f}"),
+    "crossings": ("crossings", "{:.2f}"),
+    "3+ branches": ("branching", "{:.2f}"),
+    "precision": ("precision", "{:.2f}"),
+    "r_SD": ("density", "{:.2f}"),
+    "F1": ("f1", "{:.2f}"),
+    "routing": ("routing", "{:.2f}"),
+    "false joins": ("false_joins", "{:.3f}"),
+    "failed": ("failed", "{:.0f}"),
+}
+
+
+@dataclass(frozen=True)
+class Result:
+    """One page traced by one method; seconds of CPU; error: why it failed, or empty."""
+
+    method: str
+    page: Page
+    score: Score
+    seconds: float
+    error: str
+
+
+def run(
+    methods: Iterable[str], drawings: list[Page], jobs: int, svg: Path | None = None
+) -> Iterator[Result]:
+    """Trace and judge every drawing with every method, in parallel processes."""
+    work = [(method, page, svg) for page in drawings for method in methods]
+    if jobs == 1:
+        yield from map(_judge, work)
+        return
+    with ProcessPoolExecutor(jobs, get_context("spawn"), _one_thread) as pool:
+        yield from pool.map(_judge, work)
+
+
+def _one_thread() -> None:
+    """One thread a process: the processes are the parallelism."""
+    import cv2
+
+    cv2.setNumThreads(1)
+
+
+def _judge(work: tuple[str, Page, Path | None]) -> Result:
+    method, page, svg = work
+    error = ""
+    start = time.process_time()
+    try:
+        strokes = METHODS[method](page.image)
+    except Exception as problem:  # whatever goes wrong, the drawing counts as all wrong
+        strokes, error = [], f"{type(problem).__name__}: {problem}"
+    seconds = time.process_time() - start
+    if svg:
+        _write_svg(strokes, svg / method / f"{page.name}.svg")
+    score = evaluate(strokes, page.true_strokes(), failed=bool(error))
+    return Result(method, page, score, seconds, error)
+
+
+def _write_svg(strokes: list[np.ndarray], path: Path) -> None:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    size = np.max([s.max(0) for s in strokes] or [(1024, 1024)], axis=0)
+    lines = "\n".join(
+        '<path d="M' + " L".join(f"{x:.3f} {y:.3f}" for x, y in s) + '"/>' for s in strokes
+    )
+    path.write_text(
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 1024 {max(1024, size[1]):.0f}">'
+        f'<g fill="none" stroke="#000">\n{lines}\n</g></svg>\n',
+        "utf-8",
+    )
+
+
+def table(rows: dict[str, list[Result]], head: str) -> str:
+    """A Markdown table, a row per name."""
+    cells = [[head, *COLUMNS, "CPU s"]]
+    for name, results in rows.items():
+        figures = summarize(r.score for r in results)
+        seconds = np.median([r.seconds for r in results])
+        values = [form.format(figures[key]) for key, form in COLUMNS.values()]
+        cells.append([name, *values, f"{seconds:.2f}"])
+    widths = [max(len(row[k]) for row in cells) for k in range(len(cells[0]))]
+    lines = [
+        "| " + " | ".join(cell.ljust(w) for cell, w in zip(row, widths, strict=True)) + " |"
+        for row in cells
+    ]
+    lines.insert(1, "|" + "|".join("-" * (w + 2) for w in widths) + "|")
+    return "\n".join(lines)
+
+
+def main(argv: list[str] | None = None) -> int:
+    parser = argparse.ArgumentParser(
+        prog="python -m benchmarks.quality", description=__doc__.split("\n")[0]
+    )
+    parser.add_argument(
+        "--data", type=Path, default=DATA, help="folder with manifest.json, NAME.jpg, NAME.svg"
+    )
+    parser.add_argument(
+        "--methods",
+        nargs="+",
+        choices=METHODS,
+        default=list(METHODS),
+        metavar="NAME",
+        help=", ".join(METHODS),
+    )
+    parser.add_argument("--every", type=int, default=1, help="only every n-th drawing")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="parallel processes")
+    parser.add_argument("--json", type=Path, help="write all figures of all drawings to this file")
+    parser.add_argument("--svg", type=Path, help="write the traced strokes to this folder")
+    arguments = parser.parse_args(argv)
+    try:
+        drawings = pages(arguments.data)[:: arguments.every]
+    except FileNotFoundError:
+        parser.error(f"{arguments.data} has no manifest.json.")
+
+    results: list[Result] = []
+    total = len(drawings) * len(arguments.methods)
+    for result in run(arguments.methods, drawings, arguments.jobs, arguments.svg):
+        results.append(result)
+        if result.error:
+            print(f"{result.method}: {result.page.name}: {result.error}", file=sys.stderr)
+        if sys.stderr.isatty():
+            print(f"\r{len(results)} of {total}", end="", file=sys.stderr)
+
+    by_method = {m: [r for r in results if r.method == m] for m in arguments.methods}
+    print(f"\n{len(drawings)} drawings\n\n{table(by_method, 'method')}")
+    for method, own in by_method.items():
+        for kind in ("medium", "paper"):
+            names = sorted({getattr(r.page, kind) for r in own})
+            print(f"\n{method}, by {kind}\n")
+            print(table({n: [r for r in own if getattr(r.page, kind) == n] for n in names}, kind))
+    if arguments.json:
+        arguments.json.write_text(json.dumps(_plain(by_method), indent=1), "utf-8")
+    return 0
+
+
+def _plain(by_method: dict[str, list[Result]]) -> dict[str, object]:
+    return {
+        method: {
+            "summary": summarize(r.score for r in results),
+            "drawings": {
+                r.page.name: {
+                    **asdict(r.score),
+                    "f1": r.score.f1,
+                    "density": r.score.density,
+                    "seconds": r.seconds,
+                    "error": r.error,
+                }
+                for r in results
+            },
+        }
+        for method, results in by_method.items()
+    }
+
+
+if __name__ == "__main__":
+    sys.exit(main())
