@@ -1,0 +1,88 @@
+"""Drawings -> a .blend file, for the command line; the file that is open is left behind."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from os import PathLike, fspath
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from ..engine import Drawing
+
+
+def write(drawings: Sequence[tuple[str, Drawing]], path: str | PathLike[str]) -> None:
+    """Write one Grease Pencil object per drawing, with a camera that shows the first.
+
+    Args:
+        drawings: names and drawings.
+        path: the .blend file, made or overwritten.
+
+    Raises:
+        InvoluteError: Blender's Python module is not installed, or the file can't be written.
+    """
+    from ..engine import InvoluteError
+
+    try:
+        import bpy
+    except ImportError as error:
+        raise InvoluteError(
+            "Writing .blend files needs Blender: install the extra 'blender', or run "
+            "blender -b --command involute."
+        ) from error
+    from . import state
+    from . import grease_pencil as gp
+    from .placement import front_view
+    from .trace import new_object
+
+    # Preferences stay: this may run inside Blender, with the extension enabled.
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True, load_ui=False)
+    scene = bpy.context.scene
+    for name, drawing in drawings:
+        obj = new_object(name)
+        scene.collection.objects.link(obj)
+        placement = front_view(drawing.size)
+        key = state.add(obj.data, drawing, placement, name)
+        gp.write(obj.data, scene.frame_current, drawing, placement, key)
+        if scene.camera is None:
+            scene.camera = _camera_on(drawing.size)
+            scene.collection.objects.link(scene.camera)
+            _frame_size(scene.render, drawing.size)
+            scene.view_settings.view_transform = "Standard"  # ink stays as black as it was
+            obj.select_set(True)
+            bpy.context.view_layer.objects.active = obj
+    target = Path(fspath(path)).absolute()
+    try:
+        # The name with .blend first: Blender would add the ending by itself.
+        bpy.ops.wm.save_as_mainfile(
+            filepath=str(target), check_existing=False, copy=True, compress=True
+        )
+    except RuntimeError as error:
+        raise InvoluteError(f"Can't write {target}: {_reason(error)}") from error
+    if not target.exists():
+        raise InvoluteError(f"Can't write {target}; is the disk full?")
+
+
+def _camera_on(size: tuple[int, int]) -> object:
+    """An orthographic camera that just holds a drawing of that size in the front view."""
+    import bpy
+
+    width, height = size
+    camera = bpy.data.cameras.new("Camera")
+    camera.type = "ORTHO"
+    camera.ortho_scale = 2.0 * max(1.0, width / height)
+    obj = bpy.data.objects.new("Camera", camera)
+    obj.location, obj.rotation_euler = (0.0, -5.0, 0.0), (1.5707963267948966, 0.0, 0.0)
+    return obj
+
+
+def _frame_size(render: object, size: tuple[int, int]) -> None:
+    """Renders come out in the scan's own size, as far as Blender allows."""
+    shrink = min(1.0, 16384 / max(size))
+    render.resolution_x, render.resolution_y = (max(4, round(side * shrink)) for side in size)
+    render.resolution_percentage = 100
+
+
+def _reason(error: RuntimeError) -> str:
+    text = str(error).strip().splitlines()
+    return (text[-1] if text else "unknown reason").removeprefix("Error: ").rstrip(".") + "."

@@ -1,0 +1,31 @@
+"""Names for the colours of inks: the layers that an animator knows, the same on every frame."""
+
+from __future__ import annotations
+
+import colorsys
+from collections.abc import Sequence
+
+# Where each hue ends, in degrees.
+_HUES = (
+    (18, "Red"),
+    (45, "Orange"),
+    (70, "Yellow"),
+    (165, "Green"),
+    (200, "Cyan"),
+    (262, "Blue"),
+    (300, "Purple"),
+    (340, "Pink"),
+    (360, "Red"),
+)
+
+
+def ink_name(color: Sequence[int]) -> str:
+    """The plain name of an sRGB colour (0..255 each): Black, Gray, Red, Blue and so on."""
+    hue, lightness, _ = colorsys.rgb_to_hls(*(float(c) / 255 for c in color))
+    chroma = (max(color) - min(color)) / 255
+    if chroma < 0.16 or (lightness < 0.2 and chroma < 0.22):
+        return "Black" if lightness < 0.4 else "Gray" if lightness < 0.9 else "White"
+    degrees = hue * 360
+    if degrees < 45 and lightness < 0.4 and chroma < 0.5:
+        return "Brown"
+    return next(name for end, name in _HUES if degrees <= end)

@@ -1,0 +1,171 @@
+"""The routing state of traced drawings, kept in the Grease Pencil data-block itself.
+
+So it is saved, appended, duplicated and undone together with the strokes. Layers and keyframes
+can't hold such data, and artists rename and move them: instead every traced stroke carries the key
+of its drawing, and the data-block holds an ID property
+
+    data["involute"] = {"version": 1, "traces": {key: {"drawing": bytes, "stamp": str,
+                                                       "placement": 9 floats, "source": str}}}
+
+where `drawing` is the engine's own JSON, compressed. Nothing is remembered in Python but decoded
+drawings, looked up by the hash of their content.
+"""
+
+from __future__ import annotations
+
+import zlib
+from collections import OrderedDict
+from dataclasses import dataclass
+from hashlib import blake2b
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..engine import InvoluteError
+from . import grease_pencil as gp
+from .placement import Placement
+
+if TYPE_CHECKING:
+    import bpy
+
+    from ..engine import Drawing
+
+PROPERTY = "involute"
+VERSION = 1
+_MAX_DECODED = 16
+_decoded: OrderedDict[str, Drawing] = OrderedDict()
+
+
+@dataclass(frozen=True, eq=False)
+class Trace:
+    """A traced drawing inside a Grease Pencil data-block."""
+
+    key: int
+    drawing: Drawing
+    placement: Placement
+    source: str
+    stamp: str
+
+
+def keys_at(data: bpy.types.ID, frame: int) -> list[int]:
+    """The traces whose strokes are shown at a frame, those with most strokes first."""
+    columns = [gp.read_column(drawing, gp.TRACE) for _, drawing in gp.drawings_at(data, frame)]
+    columns = [c for c in columns if c is not None]
+    if not columns:
+        return []
+    keys, counts = np.unique(np.concatenate(columns), return_counts=True)
+    known = _traces(data)
+    return [int(k) for k in keys[np.argsort(-counts, kind="stable")] if k and str(k) in known]
+
+
+def load(data: bpy.types.ID, key: int) -> Trace:
+    """The trace of that key.
+
+    Raises:
+        InvoluteError: there is none, or a newer Involute wrote it.
+    """
+    entry = _traces(data).get(str(key))
+    if entry is None:
+        raise InvoluteError("This drawing was not traced by Involute.")
+    stamp = entry["stamp"]
+    drawing = _decoded.get(stamp)
+    if drawing is None:
+        drawing = _decode(entry["drawing"])
+        _remember(stamp, drawing)
+    return Trace(key, drawing, Placement.from_list(entry["placement"]), entry["source"], stamp)
+
+
+def stamp(data: bpy.types.ID, key: int) -> str:
+    """A hash of the trace's content: the same as long as nothing was changed."""
+    entry = _traces(data).get(str(key))
+    return entry["stamp"] if entry else ""
+
+
+def add(data: bpy.types.ID, drawing: Drawing, placement: Placement, source: str) -> int:
+    """Store a new trace and return its key."""
+    key = _free_key(data, drawing, source)
+    store(data, Trace(key, drawing, placement, source, ""))
+    return key
+
+
+def store(data: bpy.types.ID, trace: Trace) -> None:
+    """Store a trace under its key, in place of what was there."""
+    blob = _encode(trace.drawing)
+    stamp = blake2b(blob, digest_size=16).hexdigest()
+    root = data.get(PROPERTY)
+    if root is None:
+        data[PROPERTY] = {"version": VERSION, "traces": {}}
+        root = data[PROPERTY]
+    root["traces"][str(trace.key)] = {
+        "drawing": blob,
+        "stamp": stamp,
+        "placement": trace.placement.as_list(),
+        "source": trace.source,
+    }
+    _remember(stamp, trace.drawing)
+
+
+def separate(data: bpy.types.ID, frame: int, trace: Trace) -> Trace:
+    """Make the trace of one keyframe its own when copies of the keyframe share it.
+
+    A copied keyframe carries the same keys; a change to one must not change the other.
+    """
+    here = [drawing for _, drawing in gp.drawings_at(data, frame)]
+    everywhere = list(gp.all_drawings(data))
+    if _users(everywhere, trace.key) <= _users(here, trace.key):
+        return trace
+    key = _free_key(data, trace.drawing, f"{trace.source}@{frame}")
+    for drawing in here:
+        column = gp.read_column(drawing, gp.TRACE)
+        if column is not None and (column == trace.key).any():
+            gp.set_column(drawing, gp.TRACE, np.where(column == trace.key, key, column))
+    own = Trace(key, trace.drawing, trace.placement, trace.source, trace.stamp)
+    store(data, own)
+    return own
+
+
+def _users(drawings: list[object], key: int) -> int:
+    """How many of the drawings have strokes of that trace."""
+    columns = (gp.read_column(drawing, gp.TRACE) for drawing in drawings)
+    return sum(1 for c in columns if c is not None and (c == key).any())
+
+
+def _traces(data: bpy.types.ID) -> Any:
+    root = data.get(PROPERTY)
+    if root is None:
+        return {}
+    if root["version"] > VERSION:
+        raise InvoluteError("A newer Involute traced this drawing; update the extension.")
+    return root["traces"]
+
+
+def _free_key(data: bpy.types.ID, drawing: Drawing, source: str) -> int:
+    """A positive key that says as little as possible about time and chance: same input, same key.
+
+    Keys must also differ between data-blocks, since their objects may be joined.
+    """
+    traces = _traces(data)
+    seed = f"{data.name}|{source}|{len(drawing.strokes)}|{drawing.size}"
+    key = zlib.crc32(seed.encode()) & 0x7FFFFFFF or 1
+    while str(key) in traces:
+        key = key % 0x7FFFFFFF + 1
+    return key
+
+
+def _remember(stamp: str, drawing: Drawing) -> None:
+    _decoded[stamp] = drawing
+    _decoded.move_to_end(stamp)
+    while len(_decoded) > _MAX_DECODED:
+        _decoded.popitem(last=False)
+
+
+def _encode(drawing: Drawing) -> bytes:
+    from ..engine.formats import drawing_json
+
+    return zlib.compress(drawing_json.dumps(drawing).encode("utf-8"), 3)
+
+
+def _decode(blob: bytes) -> Drawing:
+    from ..engine.formats import drawing_json
+
+    return drawing_json.loads(zlib.decompress(blob).decode("utf-8"))
