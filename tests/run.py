@@ -1,0 +1,165 @@
+"""All tests, each in the environments that it is for: the README's test command.
+
+    uv run --extra blender --extra test --extra bench python tests/run.py [NAME ...]
+
+    main    this environment: ruff, then every test; the Blender ones against the built extension
+    4.5     bpy 4.5 on Python 3.11: the same extension
+    5.2     bpy 5.2 on Python 3.13: the same extension
+    torch   training tests, in an environment made by plain pip from training/requirements.txt
+
+The environments are made when missing, in .venv-NAME. Standard library only.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import shutil
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+PYTEST = "pytest==9.2.0"
+HYPOTHESIS = "hypothesis==6.170.15"
+
+
+def main(argv: list[str] | None = None) -> int:
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("names", nargs="*", metavar="NAME", help="default: " + " ".join(RUNS))
+    names = parser.parse_args(argv).names or list(RUNS)
+    if unknown := set(names) - set(RUNS):
+        parser.error(f"unknown: {', '.join(sorted(unknown))}; choose from {', '.join(RUNS)}")
+    outcomes = {}
+    for name in names:
+        print(f"\n==== {name} ====", flush=True)
+        start = time.monotonic()
+        passed, closing = RUNS[name]()
+        minutes = (time.monotonic() - start) / 60
+        outcomes[name] = passed, f"{name}: {closing} ({minutes:.1f} min in all)"
+    print("\n==== summary ====")
+    for passed, line in outcomes.values():
+        print("ok    " if passed else "FAILED", line)
+    return 0 if all(passed for passed, _ in outcomes.values()) else 1
+
+
+def in_this_environment() -> tuple[bool, str]:
+    for check in (["check", "."], ["format", "--check", "."]):
+        if _call([sys.executable, "-m", "ruff", *check]):
+            return False, f"ruff {check[0]}"
+    return _pytest(Path(sys.executable), "tests", INVOLUTE_ZIP=_extension())
+
+
+def in_blender(version: str, bpy: str, python: str) -> tuple[bool, str]:
+    home = ROOT / f".venv-{version}"
+    requirements = [f"bpy=={bpy}", PYTEST]
+
+    def make() -> None:
+        _check([*_uv(), "venv", "--clear", "--python", _interpreter(python), str(home)])
+        _check([*_uv(), "pip", "install", "--python", str(_python(home)), *requirements])
+
+    _once(home, "\n".join(requirements), make)
+    return _pytest(_python(home), "tests/blender", INVOLUTE_ZIP=_extension())
+
+
+def in_torch() -> tuple[bool, str]:
+    home = ROOT / ".venv-torch"
+    requirements = ROOT / "training" / "requirements.txt"
+
+    def make() -> None:
+        interpreter = _interpreter("3.11")
+        if not Path(interpreter).exists():
+            interpreter = sys.executable
+        _check([interpreter, "-m", "venv", "--clear", str(home)])
+        pip = [str(_python(home)), "-m", "pip", "install", "--quiet", PYTEST, HYPOTHESIS]
+        _check([*pip, "--requirement", str(requirements), "--editable", str(ROOT)])
+
+    _once(home, requirements.read_text("utf-8"), make)
+    return _pytest(_python(home), "tests/training")
+
+
+RUNS: dict[str, Callable[[], tuple[bool, str]]] = {
+    "main": in_this_environment,
+    "4.5": lambda: in_blender("4.5", "4.5.15", "3.11"),
+    "5.2": lambda: in_blender("5.2", "5.2.3", "3.13"),
+    "torch": in_torch,
+}
+
+
+def _pytest(python: Path, what: str, **environment: str) -> tuple[bool, str]:
+    """Run tests, shown as they run; whether all passed, and pytest's closing line."""
+    env = {k: v for k, v in os.environ.items() if k not in ("VIRTUAL_ENV", "PYTHONPATH")}
+    command = [str(python), "-m", "pytest", what, "--durations=5", "-p", "no:cacheprovider"]
+    process = subprocess.Popen(
+        command, cwd=ROOT, env={**env, **environment}, text=True, errors="replace",
+        stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+    )  # fmt: skip
+    closing = "no closing line: it broke off"
+    for line in process.stdout:
+        print(line, end="", flush=True)
+        if " in " in line and any(w in line for w in ("passed", "failed", "error", "skipped")):
+            closing = line.strip().strip("= ")
+    code = process.wait()
+    # Blender may stumble while it shuts down, after the last test has passed.
+    return code == 0, closing if code == 0 else f"{closing}; exit code {code}"
+
+
+def _extension() -> str:
+    """The zip for this machine, built once a run."""
+    if not hasattr(_extension, "path"):
+        folder = ROOT / "build" / "tests"
+        shutil.rmtree(folder, ignore_errors=True)
+        _check([sys.executable, str(ROOT / "package.py"), "--platform", "host", "-o", str(folder)])
+        _extension.path = str(next(folder.glob("*.zip")))
+    return _extension.path
+
+
+def _once(home: Path, content: str, make: Callable[[], None]) -> None:
+    """Make an environment unless it is there with this content."""
+    stamp = home / "made-from.txt"
+    if not stamp.exists() or stamp.read_text("utf-8") != content:
+        make()
+        stamp.write_text(content, "utf-8")
+
+
+def _interpreter(version: str) -> str:
+    """A Python of this version: this one, the path's, pyenv's; else the version, for uv to get."""
+    pyenv = Path(os.environ.get("PYENV_ROOT", Path.home() / ".pyenv")) / "versions"
+    candidates = [
+        sys.executable,
+        shutil.which(f"python{version}"),
+        *(str(p / "bin" / "python") for p in sorted(pyenv.glob(f"{version}.*"))),
+    ]
+    ask = "import sys; print(*sys.version_info[:2], sep='.')"
+    for candidate in filter(None, candidates):
+        told = subprocess.run([candidate, "-c", ask], capture_output=True, text=True, check=False)
+        if told.stdout.strip() == version:
+            return candidate
+    return version
+
+
+def _uv() -> list[str]:
+    found = os.environ.get("UV") or shutil.which("uv")
+    return [found] if found else [sys.executable, "-m", "uv"]
+
+
+def _python(home: Path) -> Path:
+    return home / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
+
+
+def _call(command: list[str]) -> int:
+    print("$", " ".join(command), flush=True)
+    return subprocess.run(command, cwd=ROOT, stdin=subprocess.DEVNULL, check=False).returncode
+
+
+def _check(command: list[str]) -> None:
+    if code := _call(command):
+        raise SystemExit(f"That failed with exit code {code}.")
+
+
+if __name__ == "__main__":
+    raise SystemExit(main())
