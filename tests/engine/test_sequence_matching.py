@@ -27,11 +27,9 @@ def drawing(rng, count, size=800):
     for k in range(count):
         t = np.linspace(0, 2 * np.pi, 40, endpoint=k % 3 != 0)
         middle, radius = rng.uniform(0, size, 2), rng.uniform(20, 150, 2)
-        phase, wobble = rng.uniform(0, 6, 2), rng.uniform(0.2, 0.6)
-        shape = np.stack(
-            [np.cos(t * (1 if k % 3 == 0 else 0.4) + phase[0]), np.sin(t + phase[1])], 1
-        )
-        points = middle + radius * shape * (1 + wobble * np.cos(t + phase[0]))[:, None]
+        wobble = 1 + 0.3 * np.cos(t + 1) + rng.uniform(0.1, 0.3) * np.cos(2 * t + 2)
+        shape = np.stack([np.cos(t * (1 if k % 3 == 0 else 0.4)), np.sin(t)], 1)
+        points = middle + radius * shape * wobble[:, None]
         strokes.append(stroke(points, closed=k % 3 == 0))
     return strokes
 
