@@ -30,8 +30,8 @@ def write(drawings: Sequence[tuple[str, Drawing]], path: str | PathLike[str]) ->
             "Writing .blend files needs Blender: install the extra 'blender', or run "
             "blender -b --command involute."
         ) from error
-    from . import state
     from . import grease_pencil as gp
+    from . import state
     from .placement import front_view
     from .trace import new_object
 

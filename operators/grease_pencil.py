@@ -280,7 +280,7 @@ def _set_tail(drawing: object, columns: dict[str, Column], start: int, domain: s
     for name, column in columns.items():
         if name == "curve_type":  # Blender counts the types: only set_types may change them
             continue
-        key, _, width = _FORMATS[column.type]
+        key = _FORMATS[column.type][0]
         attribute = drawing.attributes.get(name)
         if attribute is None:
             attribute = drawing.attributes.new(name, column.type, domain)

@@ -37,7 +37,7 @@ class Placement:
         return place.astype(np.float32)
 
     def to_pixels(self, places: Array) -> Array:
-        """(..., 3) object space -> (..., 2) float64 pixels; what lies off the plane is projected."""
+        """(..., 3) object space -> (..., 2) float64 pixels; off the plane is projected onto it."""
         axes = np.stack([self.right, self.down], 1)
         return (np.asarray(places, np.float64) - self.origin) @ np.linalg.pinv(axes).T
 

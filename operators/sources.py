@@ -1,4 +1,4 @@
-"""What there is to trace: files, pages, image data-blocks, image Empties; read before any thread."""
+"""What there is to trace: files, pages, images, image Empties; read before any thread starts."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ def from_image(image: bpy.types.Image, empty: bpy.types.Object | None = None) ->
         if Path(path).is_file() and Path(path).suffix.lower() in SUFFIXES:
             return Source(name, path, empty=shown_by)
     width, height = image.size
-    if not width or not height or not image.has_data and not len(image.pixels):
+    if not (width and height and len(image.pixels)):
         raise InvoluteError(f"The image {image.name!r} has no pixels; reload it or choose another.")
     return Source(name, _pixels(image), empty=shown_by)
 

@@ -168,4 +168,4 @@ def _encode(drawing: Drawing) -> bytes:
 def _decode(blob: bytes) -> Drawing:
     from ..engine.formats import drawing_json
 
-    return drawing_json.loads(zlib.decompress(blob).decode("utf-8"))
+    return drawing_json.read(zlib.decompress(blob).decode("utf-8"))

@@ -9,8 +9,8 @@ import bpy
 from bpy.props import BoolProperty, CollectionProperty, EnumProperty, StringProperty
 
 from ..engine import InvoluteError
-from . import sources, state, worker
 from . import grease_pencil as gp
+from . import sources, state, worker
 from .placement import Placement, front_view, on_empty
 from .sources import Source
 from .trace_settings import TraceSettings, engine_settings
@@ -40,7 +40,7 @@ class INVOLUTE_OT_trace(TraceSettings, bpy.types.Operator):
     )
     as_keyframes: BoolProperty(
         name="As Keyframes",
-        description="Several files or pages become keyframes of one object, numbered by their names",
+        description="Files or pages become keyframes of one object, numbered by their names",
         default=False,
     )
     target: EnumProperty(
