@@ -1,0 +1,211 @@
+"""Drawings as SVG: one path per stroke in input pixels, solid areas as filled paths below.
+
+Reading back an SVG of ours gives the same strokes to 1/1000 px; the widths and opacities along a
+stroke, which plain SVG can't say, travel in data attributes. Only JSON keeps the junctions.
+"""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+
+from ..drawing import Drawing
+from ..errors import InvoluteError
+from ..settings import Settings
+from ..values import Array, PlanarGraph, Routing, Stroke
+from .flatten import outline
+from .whole_file import write_text
+
+_COMMAND = re.compile(r"([MLCZ])([^MLCZ]*)")
+
+
+def write(drawing: Drawing, path: Path) -> None:
+    """Write a drawing to an SVG file."""
+    write_text(dumps(drawing), path)
+
+
+def dumps(drawing: Drawing) -> str:
+    """The drawing as the text of an SVG file."""
+    width, height = drawing.size
+    lines = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" '
+        f'width="{width}" height="{height}">'
+    ]
+    if drawing.fills:
+        lines.append('<g id="fills" stroke="none">')
+        lines += [
+            f'<path data-fill="{i}" d="{" ".join(_polyline(ring) + " Z" for ring in fill)}" '
+            'fill="#000000" fill-rule="evenodd"/>'
+            for i, fill in enumerate(drawing.fills)
+        ]
+        lines.append("</g>")
+    lines.append('<g id="strokes" fill="none" stroke-linecap="round" stroke-linejoin="round">')
+    lines += [_path(i, stroke) for i, stroke in enumerate(drawing.strokes)]
+    return "\n".join([*lines, "</g>", "</svg>", ""])
+
+
+def read(text: str, name: str = "The file") -> Drawing:
+    """Read an SVG of ours; every stroke becomes a line of its own, without junctions.
+
+    Args:
+        text: the SVG.
+        name: what to call it in an error.
+
+    Raises:
+        InvoluteError: not an SVG, or one with other path commands than absolute M, L, C and Z.
+    """
+    try:
+        root = ElementTree.fromstring(text)
+        _, _, width, height = map(float, root.get("viewBox", "").replace(",", " ").split())
+        paths = list(root.iter("{http://www.w3.org/2000/svg}path"))
+        fills = tuple(_rings(p.get("d", "")) for p in paths if "data-fill" in p.attrib)
+        lines = [p for p in paths if "data-fill" not in p.attrib]
+        strokes = tuple(_stroke(element.attrib, i) for i, element in enumerate(lines))
+    except (ElementTree.ParseError, ValueError):
+        raise InvoluteError(
+            f"{name} isn't an SVG that Involute wrote; open its .json or trace the picture again."
+        ) from None
+    size = (round(width), round(height))
+    return Drawing(*_unconnected(strokes), strokes, fills, size, Settings())
+
+
+def _path(index: int, stroke: Stroke) -> str:
+    data = _polyline(_repeat_first(stroke)) if stroke.handles is None else _bezier(stroke)
+    opacity, widths = stroke.opacity, stroke.widths
+    parts = [
+        f'<path data-stroke="{index}" d="{data}" fill="none"',
+        f'stroke="#{bytes(stroke.color).hex()}" stroke-width="{float(widths.mean()):.4g}"',
+    ]
+    if stroke.closed:
+        parts.append('data-closed="1"')
+    if opacity.min() < 1:
+        parts.append(f'stroke-opacity="{float(opacity.mean()):.3g}"')
+        parts.append(f'data-opacity="{_thousandths(opacity)}"')
+    return " ".join([*parts, f'data-widths="{_thousandths(widths)}"/>'])
+
+
+def _polyline(points: Array) -> str:
+    return _numbers("M%.10g,%.10g L" + "%.10g,%.10g " * (len(points) - 1), points)
+
+
+def _bezier(stroke: Stroke) -> str:
+    anchors, handles = _repeat_first(stroke), stroke.handles
+    if stroke.closed:
+        handles = np.concatenate([handles, handles[:1]])
+    segments = np.stack([handles[:-1, 1], handles[1:, 0], anchors[1:]], axis=1)
+    pattern = "M%.10g,%.10g C" + "%.10g,%.10g " * (3 * len(segments))
+    return _numbers(pattern, np.concatenate([anchors[:1], segments.reshape(-1, 2)]))
+
+
+def _repeat_first(stroke: Stroke) -> Array:
+    return np.concatenate([stroke.points, stroke.points[:1]]) if stroke.closed else stroke.points
+
+
+def _numbers(pattern: str, points: Array) -> str:
+    # One format call for all numbers: a page has a million of them.
+    return (pattern % tuple(np.round(points.astype(np.float64), 3).ravel().tolist())).rstrip()
+
+
+def _thousandths(values: Array) -> str:
+    numbers = np.round(values.astype(np.float64) * 1000).astype(np.int64)
+    same = numbers[:1] if (numbers == numbers[0]).all() else numbers
+    return " ".join(map(str, same.tolist()))
+
+
+def _stroke(attributes: dict[str, str], index: int) -> Stroke:
+    (points, handles), *more = _subpaths(attributes.get("d", ""))
+    if more or len(points) < 2:
+        raise ValueError("a stroke is one line of two points or more")
+    closed = "data-closed" in attributes
+    if closed:
+        if handles is not None:
+            handles[0, 0] = handles[-1, 0]
+            handles = handles[:-1]
+        points = points[:-1]
+    width = f"{float(attributes.get('stroke-width', '1')) * 1000:.0f}"
+    color = attributes.get("stroke", "#000000").lstrip("#")
+    return Stroke(
+        points=points,
+        widths=_per_point(attributes.get("data-widths", width), len(points)),
+        opacity=_per_point(attributes.get("data-opacity", "1000"), len(points)),
+        closed=closed,
+        color=tuple(bytes.fromhex(color if len(color) == 6 else "000000")),  # type: ignore[arg-type]
+        branches=np.array([2 * index], np.int32),
+        handles=handles,
+    )
+
+
+def _per_point(text: str, count: int) -> Array:
+    values = np.array(text.split(), np.float32) / 1000
+    return np.ascontiguousarray(np.broadcast_to(values, count))
+
+
+def _rings(data: str) -> tuple[Array, ...]:
+    return tuple(points for points, _ in _subpaths(data))
+
+
+def _subpaths(data: str) -> list[tuple[Array, Array | None]]:
+    """The lines of a path's data: points and, when it has curves, Bezier handles."""
+    if not data or _COMMAND.sub("", data).strip():
+        raise ValueError("other commands than M, L, C and Z")
+    found: list[tuple[Array, Array | None]] = []
+    runs: list[Array] = []
+
+    def finish() -> None:
+        if not runs:
+            return
+        points = np.concatenate([runs[0], *(run[:, 2] for run in runs[1:])])
+        handles = np.stack([points, points], axis=1)
+        low = len(runs[0]) - 1
+        for run in runs[1:]:
+            high = low + len(run)
+            handles[low:high, 1], handles[low + 1 : high + 1, 0] = run[:, 0], run[:, 1]
+            low = high
+        curved = any(not np.array_equal(run[:, 1], run[:, 2]) for run in runs[1:])
+        found.append((points, handles if curved else None))
+        runs.clear()
+
+    for command, text in _COMMAND.findall(data):
+        values = np.array(text.replace(",", " ").split(), np.float32)
+        if command == "M":
+            finish()
+            runs.append(values.reshape(-1, 2))
+        elif command == "L":
+            ends = values.reshape(-1, 2)
+            starts = np.concatenate(
+                [(runs[-1][-1:] if len(runs) == 1 else runs[-1][-1:, 2]), ends[:-1]]
+            )
+            runs.append(np.stack([starts, ends, ends], axis=1))
+        elif command == "C":
+            runs.append(values.reshape(-1, 3, 2))
+    finish()
+    return found
+
+
+def _unconnected(strokes: tuple[Stroke, ...]) -> tuple[PlanarGraph, Routing]:
+    """A graph in which every stroke is one branch that meets no other."""
+    lines = [outline(stroke) for stroke in strokes]
+    if not lines:
+        graph = PlanarGraph.empty()
+    else:
+        closed = np.array([stroke.closed for stroke in strokes])
+        last = np.cumsum(np.where(closed, 1, 2)) - 1
+        ends = np.stack([np.where(closed, last, last - 1), last], axis=1)
+        graph = PlanarGraph(
+            vertices=np.concatenate(
+                [line[:1] if c else line[[0, -1]] for line, c in zip(lines, closed, strict=True)]
+            ),
+            points=np.concatenate(lines),
+            offsets=np.concatenate([[0], np.cumsum([len(line) for line in lines])]).astype(
+                np.int32
+            ),
+            ends=ends.astype(np.int32),
+        )
+    partner = np.arange(2 * graph.branch_count, dtype=np.int32)
+    loop = np.flatnonzero(graph.degrees[graph.half_vertex] == 2)
+    partner[loop] = loop ^ 1
+    no_pairs = np.zeros((0, 2), np.int32)
+    return graph, Routing(partner, no_pairs, np.zeros(0, np.float32), (), np.zeros(0, bool))
