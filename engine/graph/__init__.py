@@ -10,10 +10,12 @@ import numpy as np
 
 from ..settings import Settings
 from ..values import LineMaps, PlanarGraph
+from .cleanup import prune
+from .junctions import resolve
 from .measure import measure
 from .ridge import Ridge
 from .skeleton import Chains, thin, trace
-from .topology import join, lengths, select
+from .topology import select
 
 
 def build_graph(maps: LineMaps, pen_width: float, settings: Settings) -> PlanarGraph:
@@ -32,10 +34,8 @@ def build_graph(maps: LineMaps, pen_width: float, settings: Settings) -> PlanarG
     if len(chains.pixels) == 0:
         return PlanarGraph.empty()
     graph = _pixel_graph(chains, ridge.crest(chains.rows, chains.columns))
-    for _ in range(2):
-        leaf = (graph.degrees[graph.ends] == 1).sum(1) == 1
-        graph = join(select(graph, ~(leaf & (lengths(graph) < 4.0))))
-    return graph
+    graph = prune(graph, 3.0)
+    return resolve(graph, maps.centerline.shape, 2.0)
 
 
 def _pixel_graph(chains: Chains, crest: np.ndarray) -> PlanarGraph:
@@ -44,7 +44,7 @@ def _pixel_graph(chains: Chains, crest: np.ndarray) -> PlanarGraph:
     ends = np.stack([chains.node[chains.pixels[starts]], chains.node[chains.pixels[stops]]], -1)
     label = np.arange(chains.node_count)
     degree = np.bincount(ends.ravel(), minlength=chains.node_count)
-    short = (np.diff(chains.offsets) <= 5) & (degree[ends] >= 3).all(1)
+    short = (np.diff(chains.offsets) <= 2) & (degree[ends] >= 3).all(1)
     while True:
         low = np.minimum(label[ends[short, 0]], label[ends[short, 1]])
         before = label.copy()

@@ -1,0 +1,102 @@
+"""Which points of a line are spoilt by a neighbour, and which branchings are one blob.
+
+The paper clusters triangles of the pixel graph and looks two pixel steps out of a cluster to see
+where its branches go. Two pixels say little about a direction, and the ridge of a line is bent
+towards any neighbour closer than about three line widths. So we mark, along every branch, what is
+clean, and read its course only there.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..values import PlanarGraph
+from .ridge import SIGMA
+
+Array = np.ndarray
+
+WINDOW = 16  # points of a half-branch, outside its blob, that tell where it goes
+
+
+@dataclass(frozen=True, eq=False)
+class Halves:
+    """The half-branches of a graph, read outward from where they leave their blob.
+
+    exit: (2B,) int32, the point of graph.points at which the clean part begins.
+    points: (2B, WINDOW, 2) float64, px, and weights: (2B, WINDOW) float64: the course from there
+        on; the weight is small where a neighbour spoils the ridge, 0 past the end of the branch.
+    clean: (B,) bool, whether the branch has a clean point at all.
+    """
+
+    exit: Array
+    points: Array
+    weights: Array
+    clean: Array
+
+
+def spoilt(graph: PlanarGraph, shape: tuple[int, int], reach: float) -> Array:
+    """(P,) bool: points nearer than `reach` px to a line that isn't their own course."""
+    counts = np.diff(graph.offsets)
+    # A number per point that jumps between branches: far apart = not the same piece of line.
+    place = np.arange(len(graph.points)) + np.repeat(np.arange(len(counts)) * 64, counts) + 64
+    margin = int(np.ceil(reach))
+    pixel = np.clip(graph.points.astype(np.int32), 0, np.array(shape[::-1]) - 1) + margin
+    image = np.zeros(np.add(shape, 2 * margin), np.int32)
+    image[pixel[:, 1], pixel[:, 0]] = place
+    # Vertices belong to several branches, so they spoil all of them.
+    ends = np.concatenate([graph.offsets[:-1], graph.offsets[1:] - 1])
+    image[pixel[ends, 1], pixel[ends, 0]] = -(1 << 20)
+    flat, base = image.ravel(), pixel[:, 1] * image.shape[1] + pixel[:, 0]
+    found = np.zeros(len(place), bool)
+    span = np.arange(-margin, margin + 1)
+    for dy, dx in np.stack(np.meshgrid(span, span), -1).reshape(-1, 2):
+        if dx * dx + dy * dy > reach * reach:
+            continue
+        other = flat[base + dy * image.shape[1] + dx]
+        found |= (other != 0) & (np.abs(other - place) > 8)
+    return found
+
+
+def halves(graph: PlanarGraph, dirty: Array) -> Halves:
+    """Where every half-branch leaves its blob, and its course from there on."""
+    starts, stops = graph.offsets[:-1].astype(np.int64), graph.offsets[1:].astype(np.int64) - 1
+    index = np.arange(len(graph.points))
+    branch = np.repeat(np.arange(graph.branch_count), np.diff(graph.offsets))
+    usable = np.where(dirty, len(index), index)
+    first = np.minimum.reduceat(usable, starts)
+    last = np.maximum.reduceat(np.where(dirty, -1, index), starts)
+    clean = last >= 0
+    middle = (starts + stops) // 2
+    leave = np.stack([np.where(clean, first, middle), np.where(clean, last, middle)], -1).ravel()
+    # Without a clean point, the course is read a little nearer to the vertex.
+    quarter = (stops - starts) // 4
+    begin = np.stack([starts + quarter, stops - quarter], -1).ravel()
+    begin = np.where(np.repeat(clean, 2), leave, begin)
+    step = np.tile([1, -1], graph.branch_count)
+    place = begin[:, None] + step[:, None] * np.arange(WINDOW)
+    inside = (place >= np.repeat(starts, 2)[:, None]) & (place <= np.repeat(stops, 2)[:, None])
+    place = np.clip(place, 0, len(index) - 1)
+    weights = np.where(dirty[place], 0.05, 1.0) * inside
+    del branch
+    return Halves(leave.astype(np.int32), graph.points[place].astype(np.float64), weights, clean)
+
+
+def reach_of(pen: float) -> float:
+    """How near a second line bends the ridge of a first one noticeably, in px."""
+    return 3.5 * SIGMA * max(1.0, pen / 2)
+
+
+def connected(count: int, links: Array) -> Array:
+    """(count,) int32: the smallest number that each number is linked to by (K, 2) links."""
+    label = np.arange(count, dtype=np.int32)
+    while len(links):
+        low = np.minimum(label[links[:, 0]], label[links[:, 1]])
+        before = label.copy()
+        np.minimum.at(label, links[:, 0], low)
+        np.minimum.at(label, links[:, 1], low)
+        label = label[label]
+        if np.array_equal(label, before):
+            break
+    return label

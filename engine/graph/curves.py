@@ -1,0 +1,240 @@
+"""Which half-branches run on into which: smooth curves through a blob.
+
+Every pair of half-branches that leave one blob is tried: one cubic through the clean points of
+both sides, in the frame of their chord. A true continuation fits to a tenth of a pixel and hardly
+turns. This pairing only serves to find the exact place of the junction; what is one stroke is
+decided later, by the routing.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+from itertools import combinations
+
+import numpy as np
+
+Array = np.ndarray
+
+SAMPLES = 17  # points of a curve within the blob, exits included
+ALONE = 1.0  # cost of a half-branch that runs on into none
+NOISE = 0.2  # px; how far ridge points stray from a smooth line
+TURN, SWERVE = np.radians(40.0), np.radians(20.0)  # a bend, and a bend with a counter-bend
+NEVER = 1e3
+
+
+@dataclass(frozen=True, eq=False)
+class Fits:
+    """Cubics through pairs of half-branches; K pairs.
+
+    origin (K, 2), axis (K, 2): the frame; scale (K,): px per unit of x; coefficients (K, 4) of
+    y(x) in px, lowest power first; span (K, 2): x at the two exits; offset (K, 2): what is missing
+    at the exits to the ridge points there; cost (K,).
+    """
+
+    origin: Array
+    axis: Array
+    scale: Array
+    coefficients: Array
+    span: Array
+    offset: Array
+    cost: Array
+
+    def sampled(self, chosen: Array) -> Array:
+        """(len(chosen), SAMPLES, 2) points from the first exit to the second."""
+        t = np.linspace(0, 1, SAMPLES)
+        span = self.span[chosen]
+        x = span[:, :1] * (1 - t) + span[:, 1:] * t
+        y = _value(self.coefficients[chosen], x)
+        y += self.offset[chosen, :1] * (1 - t) + self.offset[chosen, 1:] * t
+        return self._world(chosen, x, y)
+
+    def distance(self, points: Array) -> Array:
+        """(K, N) px: how far points (K, N, 2) lie beside their curve, across the chord."""
+        x, y = self._local(points)
+        return np.abs(y - _value(self.coefficients, x))
+
+    def _world(self, chosen: Array, x: Array, y: Array) -> Array:
+        axis = self.axis[chosen, None, :]
+        normal = np.stack([-axis[..., 1], axis[..., 0]], -1)
+        scale = self.scale[chosen, None, None]
+        return self.origin[chosen, None, :] + x[..., None] * scale * axis + y[..., None] * normal
+
+    def _local(self, points: Array) -> tuple[Array, Array]:
+        offset = points - self.origin[:, None]
+        ax, ay = self.axis[:, None, 0], self.axis[:, None, 1]
+        x = (offset[..., 0] * ax + offset[..., 1] * ay) / self.scale[:, None]
+        return x, offset[..., 1] * ax - offset[..., 0] * ay
+
+
+def fit_pairs(points: Array, weights: Array, pairs: Array) -> Fits:
+    """One cubic through both half-branches of each pair.
+
+    Args:
+        points, weights: as in `clusters.Halves`.
+        pairs: (K, 2) half-branches.
+    """
+    a, b = pairs.T
+    exit_a, exit_b = points[a, 0], points[b, 0]
+    gap = np.hypot(*(exit_b - exit_a).T)
+    # The longer the gap, the more of both sides is needed to bridge it.
+    reach = np.clip(0.75 * gap, 6.0, 14.0)[:, None]
+    fade = np.exp(-((np.arange(points.shape[1]) / reach) ** 2))
+    weight = np.concatenate([weights[a] * fade, weights[b] * fade], 1)
+    both = np.concatenate([points[a], points[b]], 1)
+    center_a = _mean(points[a], weights[a] * fade)
+    center_b = _mean(points[b], weights[b] * fade)
+    chord = center_b - center_a
+    length = np.hypot(*chord.T)
+    axis = chord / np.maximum(length, 1e-9)[:, None]
+    scale = np.maximum(length, 1.0)
+    frame = Fits((exit_a + exit_b) / 2, axis, scale, *(np.zeros(0),) * 4)
+    x, y = frame._local(both)
+    powers = x[..., None] ** np.arange(4)
+    weighted = powers * weight[..., None]
+    normal = np.einsum("kni,knj->kij", weighted, powers)
+    # Just enough to keep short half-branches solvable; cubics are dearer than lines.
+    normal += np.diag([1e-6, 1e-6, 1e-3, 1e-2])
+    coefficients = np.linalg.solve(normal, np.einsum("kni,kn->ki", weighted, y)[..., None])[..., 0]
+    residual = y - _value(coefficients, x)
+    rms = np.sqrt((weight * residual**2).sum(1) / np.maximum(weight.sum(1), 1e-9))
+
+    n = points.shape[1]
+    span = np.stack([x[:, 0], x[:, n]], -1)
+    at_exit = np.stack([y[:, 0], y[:, n]], -1) - _value(coefficients, span)
+    slope = _slope(coefficients, span) / scale[:, None]
+    angle = np.arctan(slope)
+    across = _value(coefficients, span)
+    wide = np.maximum((span[:, 1] - span[:, 0]) * scale, 1e-9)
+    lean = np.arctan2(across[:, 1] - across[:, 0], wide)
+    turn = angle[:, 1] - angle[:, 0]
+    swerve = angle.mean(1) - lean
+    cost = (rms / NOISE) ** 2 + (turn / TURN) ** 2 + (swerve / SWERVE) ** 2
+    # Both sides must lie on their own side of the blob, and run away from it.
+    out_a = _direction(points[a], weights[a] * fade)
+    out_b = _direction(points[b], weights[b] * fade)
+    backwards = ((out_a * axis).sum(1) > -0.4) | ((out_b * axis).sum(1) < 0.4)
+    cost[backwards | (span[:, 1] < span[:, 0]) | ~np.isfinite(cost)] = NEVER
+    return Fits(frame.origin, axis, scale, coefficients, span, at_exit, np.minimum(cost, NEVER))
+
+
+def extend(points: Array, weights: Array, reach: Array) -> tuple[Array, Array, Array]:
+    """Half-branches continued into their blob.
+
+    Args:
+        points, weights: (K, N, 2) and (K, N), outward from the exit.
+        reach: (K,) px to go on.
+
+    Returns:
+        (K, SAMPLES, 2) points from the exit inward; (K, 2) a point and (K, 2) the unit direction
+        inward of the straight line that fits best near the exit.
+    """
+    fade = np.exp(-((np.arange(points.shape[1]) / 8.0) ** 2))
+    weight = weights * fade
+    inward = -_direction(points, weight)
+    exit_point = points[:, :1]
+    offset = points - exit_point
+    x = -(offset * inward[:, None]).sum(-1)
+    y = offset[..., 1] * inward[:, None, 0] - offset[..., 0] * inward[:, None, 1]
+    powers = x[..., None] ** np.arange(3)
+    weighted = powers * weight[..., None]
+    normal = np.einsum("kni,knj->kij", weighted, powers)
+    # Curvature is held down: a short stem would otherwise curl.
+    normal += np.diag([1e-6, 1e-3, 300.0])
+    c = np.linalg.solve(normal, np.einsum("kni,kn->ki", weighted, y)[..., None])[..., 0]
+    t = np.linspace(0, 1, SAMPLES)
+    along = t * reach[:, None]
+    across = _value(c, -along) - c[:, :1] * np.maximum(0.0, 1 - t) * (1 - t)
+    side = np.stack([-inward[:, 1], inward[:, 0]], -1)
+    path = exit_point + along[..., None] * inward[:, None] + across[..., None] * side[:, None]
+    base = points[:, 0] + c[:, :1] * side
+    course = inward - c[:, 1:2] * side
+    return path, base, course / np.hypot(*course.T)[:, None]
+
+
+def best_pairing(group: Array, pairs: Array, cost: Array) -> Array:
+    """Which pairs to join so that the whole costs least.
+
+    Args:
+        group: (H,) the group of every half-branch; those of group -1 take no part.
+        pairs: (K, 2) all pairs within groups, and their cost (K,).
+
+    Returns:
+        (K,) bool. Groups of up to eight half-branches are solved exactly, larger ones greedily.
+    """
+    chosen = np.zeros(len(pairs), bool)
+    if len(pairs) == 0:
+        return chosen
+    size = np.bincount(group[group >= 0])
+    owner = group[pairs[:, 0]]
+    # Pairs come group by group, each in the order of `combinations`.
+    order = np.lexsort((pairs[:, 1], pairs[:, 0], owner))
+    for k in np.unique(size[owner]):
+        mine = order[size[owner[order]] == k]
+        if k <= 8:
+            table, alone = _involutions(int(k))
+            mine = mine.reshape(-1, table.shape[1])
+            total = cost[mine] @ table.T + alone * ALONE
+            chosen[mine] = table[total.argmin(1)] > 0
+        else:
+            chosen[_greedy(pairs[mine], cost[mine], mine)] = True
+    return chosen
+
+
+@cache
+def _involutions(k: int) -> tuple[Array, Array]:
+    """All ways to pair up k things: (I, k (k - 1) / 2) 0 or 1, and (I,) how many stay alone."""
+    column = {pair: i for i, pair in enumerate(combinations(range(k), 2))}
+
+    def ways(rest: tuple[int, ...]) -> list[list[tuple[int, int]]]:
+        if not rest:
+            return [[]]
+        head, tail = rest[0], rest[1:]
+        found = ways(tail)
+        for i, other in enumerate(tail):
+            found += [[(head, other), *w] for w in ways(tail[:i] + tail[i + 1 :])]
+        return found
+
+    every = ways(tuple(range(k)))
+    table = np.zeros((len(every), len(column)))
+    for row, way in enumerate(every):
+        table[row, [column[pair] for pair in way]] = 1
+    return table, k - 2 * table.sum(1)
+
+
+def _greedy(pairs: Array, cost: Array, ids: Array) -> Array:
+    taken: set[int] = set()
+    picked = []
+    for i in np.argsort(cost, kind="stable"):
+        if cost[i] >= 2 * ALONE:
+            break
+        a, b = map(int, pairs[i])
+        if a not in taken and b not in taken:
+            taken |= {a, b}
+            picked.append(ids[i])
+    return np.array(picked, np.int64)
+
+
+def _value(coefficients: Array, x: Array) -> Array:
+    value = np.zeros_like(x)
+    for c in coefficients.T[::-1]:
+        value = value * x + c[:, None]
+    return value
+
+
+def _slope(coefficients: Array, x: Array) -> Array:
+    return _value(coefficients[:, 1:] * np.arange(1, coefficients.shape[1]), x)
+
+
+def _mean(points: Array, weights: Array) -> Array:
+    return (points * weights[..., None]).sum(1) / np.maximum(weights.sum(1), 1e-9)[:, None]
+
+
+def _direction(points: Array, weights: Array) -> Array:
+    """Unit direction (K, 2) along which each course runs on, from its first point outward."""
+    centred = points - _mean(points, weights)[:, None]
+    place = np.arange(points.shape[1], dtype=np.float64)
+    total = np.maximum(weights.sum(1), 1e-9)
+    place = place - ((weights * place).sum(1) / total)[:, None]
+    slope = ((weights * place)[..., None] * centred).sum(1)
+    return slope / np.maximum(np.hypot(*slope.T), 1e-9)[:, None]

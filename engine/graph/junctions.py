@@ -1,0 +1,345 @@
+"""Put every junction where its lines meet.
+
+Inside a blob the ridge can't be trusted: it is bent towards the blob's middle, a shallow crossing
+is one line for a while, a crossing is two forks. The paper tries one or two junctions on a grid of
+candidates and joins each branch to them by a straight line. We let the branches run on instead, as
+smooth curves fitted outside the blob: their crossings ARE the junctions, one or several; what
+doesn't run through (a stem) ends on the first curve it hits; where nothing runs through, the
+junction is the least-squares meeting point. The branches then follow these curves to the junction.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..values import PlanarGraph
+from .clusters import Halves, connected, halves, reach_of, spoilt
+from .curves import ALONE, SAMPLES, best_pairing, extend, fit_pairs
+from .topology import join, lengths, select
+
+Array = np.ndarray
+
+MERGE = 2.0  # px; crossings nearer than this are one junction
+TOUCH = 0.6  # px; curves that come this near touch
+LINK = 4.0  # px; branchings linked by less than this are one blob
+SHARED = 36.0  # px; the longest piece that two lines crossing at a shallow angle may share
+ASIDE = 1.2  # px; how far beside a shared piece its two lines may run
+
+
+def resolve(graph: PlanarGraph, shape: tuple[int, int], pen: float) -> PlanarGraph:
+    """Move the junctions of a skeleton's graph to where its lines meet.
+
+    Args:
+        graph: the skeleton, its points on the crest of the lines.
+        shape: (H, W) of the map.
+        pen: width of the ridge, px.
+    """
+    if not (graph.degrees >= 3).any():
+        return graph
+    dirty = spoilt(graph, shape, reach_of(pen))
+    half = halves(graph, dirty)
+    group, inner = _groups(graph, half)
+    return _rebuild(graph, half, group, inner)
+
+
+def _groups(graph: PlanarGraph, half: Halves) -> tuple[Array, Array]:
+    """The blob (V,) of every vertex, and which branches (B,) lie inside a blob."""
+    count = len(graph.vertices)
+    long = lengths(graph)
+    a, b = graph.ends.T
+    fork = graph.degrees >= 3
+    both = fork[a] & fork[b] & (a != b)
+    linked = both & (long < LINK)
+    blob = connected(count, graph.ends[linked])
+    shared = np.flatnonzero(both & (blob[a] != blob[b]) & (long < SHARED))
+    accepted = shared[_runs_double(graph, half, blob, shared)]
+    blob = connected(count, np.concatenate([graph.ends[linked], graph.ends[accepted]]))
+    inner = (blob[a] == blob[b]) & ((long < 2 * LINK) & ~half.clean)
+    inner |= linked
+    inner[accepted] = True
+    return np.where(fork, blob, -1), inner
+
+
+def _runs_double(graph: PlanarGraph, half: Halves, blob: Array, shared: Array) -> Array:
+    """Which branches (K,) carry two lines at once: each of their ends forks, and both prongs of
+    the one fork run on smoothly in those of the other, along the branch itself."""
+    if len(shared) == 0:
+        return np.zeros(0, bool)
+    home = blob[graph.half_vertex]
+    order = np.argsort(home, kind="stable")
+    start = np.searchsorted(home[order], np.arange(len(graph.vertices) + 1))
+    left, right = blob[graph.ends[shared]].T
+    first, second, owner = [], [], []
+    for i, (e, here, there) in enumerate(zip(shared, left, right, strict=True)):
+        one = order[start[here] : start[here + 1]]
+        two = order[start[there] : start[there + 1]]
+        # A second way between the two blobs means that there is a gap between the lines.
+        if np.isin(one >> 1, two >> 1).sum() > 1 or max(len(one), len(two)) > 6:
+            continue
+        one, two = one[one >> 1 != e], two[two >> 1 != e]
+        first.append(np.repeat(one, len(two)))
+        second.append(np.tile(two, len(one)))
+        owner.append(np.full(len(one) * len(two), i))
+    if not first:
+        return np.zeros(len(shared), bool)
+    pairs = np.stack([np.concatenate(first), np.concatenate(second)], -1)
+    owner = np.concatenate(owner)
+    fits = fit_pairs(half.points, half.weights, pairs)
+    e = shared[owner]
+    begin, end = graph.offsets[e], graph.offsets[e + 1] - 1
+    inside = np.rint(begin[:, None] + (end - begin)[:, None] * np.linspace(0.1, 0.9, 9))
+    aside = fits.distance(graph.points[inside.astype(np.int64)].astype(np.float64)).max(1)
+    good = (fits.cost < ALONE) & (aside < ASIDE)
+    # Two good pairs that share no half-branch.
+    result = np.zeros(len(shared), bool)
+    for i in np.unique(owner[good]):
+        mine = pairs[good & (owner == i)]
+        apart = (mine[:, None, 0] != mine[None, :, 0]) & (mine[:, None, 1] != mine[None, :, 1])
+        result[i] = apart.any()
+    return result
+
+
+def _rebuild(graph: PlanarGraph, half: Halves, group: Array, inner: Array) -> PlanarGraph:
+    """Replace all blobs by curves; see the module's docstring."""
+    h_group = np.where(np.repeat(inner, 2), -1, group[graph.half_vertex])
+    pairs = _pairs_within(h_group)
+    fits = fit_pairs(half.points, half.weights, pairs)
+    chosen = np.flatnonzero(best_pairing(h_group, pairs, fits.cost))
+    through = pairs[chosen]
+    alone = h_group >= 0
+    alone[through] = False
+    stems = np.flatnonzero(alone)
+
+    # Blobs by consecutive numbers, and their middle.
+    names, of_half = np.unique(h_group[h_group >= 0], return_inverse=True)
+    blob = np.full(len(h_group), -1)
+    blob[h_group >= 0] = of_half
+    exits = half.points[:, 0]
+    member = np.flatnonzero(group >= 0)
+    home = np.searchsorted(names, group[member])
+    known = (home < len(names)) & (names[np.minimum(home, len(names) - 1)] == group[member])
+    member, home = member[known], home[known]
+    weight = np.maximum(np.bincount(home, minlength=len(names)), 1)
+    middle = np.stack(
+        [np.bincount(home, graph.vertices[member, k], len(names)) / weight for k in (0, 1)], -1
+    )
+
+    to_middle = np.hypot(*(middle[blob[stems]] - exits[stems]).T)
+    path, base, course = extend(half.points[stems], half.weights[stems], to_middle + MERGE + 1.0)
+    curves = np.concatenate([fits.sampled(chosen), path])
+    curve_blob = np.concatenate([blob[through[:, 0]], blob[stems]]).astype(np.int64)
+    is_stem = np.arange(len(curves)) >= len(chosen)
+
+    meetings = _meetings(curves, curve_blob, is_stem)
+    lone = _meeting_points(base, course, blob[stems], middle)
+    stops, places = _stops(meetings, curves, curve_blob, is_stem, lone)
+    active = blob >= 0
+    return _assemble(graph, half, active, inner, through, stems, curves, stops, places)
+
+
+def _pairs_within(group: Array) -> Array:
+    """All pairs (K, 2), a < b, of half-branches of one group; group -1 has none."""
+    member = np.flatnonzero(group >= 0)
+    member = member[np.argsort(group[member], kind="stable")]
+    size = np.unique(group[member], return_counts=True)[1]
+    begin = np.concatenate([[0], np.cumsum(size)[:-1]]).astype(np.int64)
+    found = []
+    for k in np.unique(size):
+        a, b = np.triu_indices(k, 1)
+        rows = member[begin[size == k][:, None] + np.arange(k)]
+        found.append(np.stack([rows[:, a].ravel(), rows[:, b].ravel()], -1))
+    return np.concatenate(found) if found else np.zeros((0, 2), np.int64)
+
+
+def _meetings(curves: Array, blob: Array, is_stem: Array) -> Array:
+    """Where the curves of each blob meet: (M, 5) rows of curve, curve, time, time, weight.
+
+    A time runs from 0 at the curve's first sample to SAMPLES - 1 at its last.
+    """
+    pairs = _pairs_within(blob)
+    pairs = pairs[~is_stem[pairs].all(1)]
+    found = [np.zeros((0, 5))]
+    for some in np.array_split(pairs, len(pairs) // 512 + 1):
+        if len(some):
+            found += [_crossings(curves, some)]
+    crossings = np.concatenate(found)
+    # Through-curves that only touch, and stems that end just short of a curve.
+    crossed = np.zeros(len(pairs), bool)
+    if len(pairs):
+        key = pairs[:, 0] * len(curves) + pairs[:, 1]
+        crossed = np.isin(key, crossings[:, 0] * len(curves) + crossings[:, 1])
+        apart = pairs[~crossed]
+        limit = np.where(is_stem[apart].any(1), 2 * TOUCH, TOUCH)
+        near = _touches(curves, apart, limit)
+        has_hit = np.zeros(len(curves), bool)
+        has_hit[crossings[:, :2].astype(np.int64)] = True
+        stem = is_stem[near[:, 1].astype(np.int64)]
+        near = near[~(stem & has_hit[near[:, 1].astype(np.int64)])]
+        crossings = np.concatenate([crossings, near])
+    # Stems come after the through-curves, so a stem is always second; it ends on its first hit.
+    second = crossings[:, 1].astype(np.int64)
+    order = np.lexsort((crossings[:, 3], second))
+    first = np.diff(second[order], prepend=-1) != 0
+    return crossings[order[first | ~is_stem[second[order]]]]
+
+
+def _crossings(curves: Array, pairs: Array) -> Array:
+    """Crossings of pairs of polylines; rows as in `_meetings`."""
+    p, q = curves[pairs[:, 0]], curves[pairs[:, 1]]
+    d, e = np.diff(p, axis=1)[:, :, None], np.diff(q, axis=1)[:, None]
+    offset = q[:, None, :-1] - p[:, :-1, None]
+    cross = d[..., 0] * e[..., 1] - d[..., 1] * e[..., 0]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        s = (offset[..., 0] * e[..., 1] - offset[..., 1] * e[..., 0]) / cross
+        t = (offset[..., 0] * d[..., 1] - offset[..., 1] * d[..., 0]) / cross
+    hit = (s >= 0) & (s <= 1) & (t >= 0) & (t <= 1)
+    k, i, j = np.nonzero(hit)
+    norm = np.hypot(d[k, i, 0, 0], d[k, i, 0, 1]) * np.hypot(e[k, 0, j, 0], e[k, 0, j, 1])
+    sine = np.abs(cross[k, i, j]) / np.maximum(norm, 1e-12)
+    return np.stack([*pairs[k].T, i + s[k, i, j], j + t[k, i, j], sine**2 + 1e-3], -1)
+
+
+def _touches(curves: Array, pairs: Array, limit: Array) -> Array:
+    """Nearest points of pairs of polylines that come within their limit; rows as above."""
+    found = [np.zeros((0, 5))]
+    for at in range(0, len(pairs), 512):
+        some, near = pairs[at : at + 512], limit[at : at + 512]
+        gap = curves[some[:, 0], :, None] - curves[some[:, 1], None, :]
+        gap = np.hypot(gap[..., 0], gap[..., 1]).reshape(len(some), -1)
+        best = gap.argmin(1)
+        k = np.flatnonzero(gap[np.arange(len(some)), best] < near)
+        i, j = np.divmod(best[k], SAMPLES)
+        found.append(np.stack([*some[k].T, i, j, np.full(len(k), 1e-3)], -1))
+    return np.concatenate(found)
+
+
+def _meeting_points(base: Array, course: Array, blob: Array, middle: Array) -> Array:
+    """(N, 2): for each blob the point nearest to all its stems' straight continuations."""
+    count = len(middle)
+    across = np.eye(2) - course[:, :, None] * course[:, None, :]
+    matrix = np.tile(0.05 * np.eye(2), (count, 1, 1))
+    np.add.at(matrix, blob, across)
+    vector = np.zeros((count, 2))
+    np.add.at(vector, blob, np.einsum("kij,kj->ki", across, base - middle[blob]))
+    shift = np.linalg.solve(matrix, vector[..., None])[..., 0]
+    size = np.hypot(*shift.T)
+    limit = 6.0
+    return middle + shift * np.minimum(1.0, limit / np.maximum(size, 1e-9))[:, None]
+
+
+def _at(curves: Array, curve: Array, time: Array) -> Array:
+    """(N, 2) points of the curves at fractional sample numbers."""
+    low = np.clip(time.astype(np.int64), 0, SAMPLES - 2)
+    part = (time - low)[:, None]
+    return curves[curve, low] * (1 - part) + curves[curve, low + 1] * part
+
+
+def _stops(
+    meetings: Array, curves: Array, blob: Array, is_stem: Array, lone: Array
+) -> tuple[Array, Array]:
+    """Merge meetings to junctions: stops (S, 3) of curve, junction, time; places (J, 2)."""
+    curve = meetings[:, :2].astype(np.int64)
+    here = (_at(curves, curve[:, 0], meetings[:, 2]) + _at(curves, curve[:, 1], meetings[:, 3])) / 2
+    pairs = _pairs_within(blob[curve[:, 0]]) if len(meetings) else np.zeros((0, 2), np.int64)
+    close = np.hypot(*(here[pairs[:, 0]] - here[pairs[:, 1]]).T) < MERGE
+    label = connected(len(meetings), pairs[close])
+    names, junction = np.unique(label, return_inverse=True)
+    weight = np.bincount(junction, meetings[:, 4], len(names))
+    places = np.stack(
+        [np.bincount(junction, meetings[:, 4] * here[:, k], len(names)) / weight for k in (0, 1)],
+        -1,
+    )
+    junction_blob = np.zeros(len(names), np.int64)
+    junction_blob[junction] = blob[curve[:, 0]]
+    stops = np.concatenate(
+        [np.stack([curve[:, k], junction, meetings[:, 2 + k]], -1) for k in (0, 1)]
+    )
+    # A curve that passes a junction twice (its meetings were merged) stops there once.
+    keys, same = np.unique(stops[:, 0] * (len(names) + 1) + stops[:, 1], return_inverse=True)
+    mean = np.bincount(same, stops[:, 2], len(keys)) / np.maximum(np.bincount(same), 1)
+    stops = np.stack([keys // (len(names) + 1), keys % (len(names) + 1), mean], -1)
+
+    # Stems that hit nothing end at their blob's nearest junction, or all together at a lone one.
+    hit = np.zeros(len(curves), bool)
+    hit[stops[:, 0].astype(np.int64)] = True
+    lost = np.flatnonzero(is_stem & ~hit)
+    if len(lost):
+        first = np.full(len(lone), -1)
+        first[junction_blob[::-1]] = np.arange(len(names))[::-1]
+        need = np.unique(blob[lost][first[blob[lost]] < 0])
+        first[need] = len(names) + np.arange(len(need))
+        places = np.concatenate([places, lone[need]])
+        to = first[blob[lost]]
+        gap = curves[lost] - places[to][:, None]
+        time = np.maximum(np.hypot(gap[..., 0], gap[..., 1]).argmin(1), 0.5)
+        stops = np.concatenate([stops, np.stack([lost, to, time], -1)])
+    return stops[np.lexsort((stops[:, 2], stops[:, 0]))], places
+
+
+def _assemble(
+    graph: PlanarGraph,
+    half: Halves,
+    active: Array,
+    inner: Array,
+    through: Array,
+    stems: Array,
+    curves: Array,
+    stops: Array,
+    places: Array,
+) -> PlanarGraph:
+    """The graph with every blob replaced: branches cut at their exits, and the pieces of curves."""
+    # Vertices: the old ones, then the exits (by their point), then the junctions.
+    exit_point, exit_vertex = np.unique(half.exit, return_inverse=True)
+    old = len(graph.vertices)
+    exit_vertex = np.where(active, old + exit_vertex, graph.half_vertex)
+    vertices = np.concatenate([graph.vertices, graph.points[exit_point], places])
+    first_junction = old + len(exit_point)
+
+    cut = np.where(
+        active, half.exit, np.stack([graph.offsets[:-1], graph.offsets[1:] - 1], -1).ravel()
+    )
+    begin, end = cut.reshape(-1, 2).T.astype(np.int64)
+    kept = ~inner & (end > begin)
+    counts = (end - begin + 1)[kept]
+    total = np.concatenate([[0], np.cumsum(counts)])
+    take = np.arange(total[-1]) - np.repeat(total[:-1], counts) + np.repeat(begin[kept], counts)
+    branch_points = graph.points[take]
+    branch_ends = exit_vertex.reshape(-1, 2)[kept]
+
+    # Every curve: its first exit, its stops, and (a through-curve) its second exit.
+    curve = np.concatenate([np.arange(len(curves)), np.arange(len(through)), stops[:, 0]])
+    time = np.concatenate(
+        [np.zeros(len(curves)), np.full(len(through), SAMPLES - 1.0), stops[:, 2]]
+    )
+    node = np.concatenate(
+        [
+            exit_vertex[np.concatenate([through[:, 0], stems])],
+            exit_vertex[through[:, 1]],
+            first_junction + stops[:, 1].astype(np.int64),
+        ]
+    )
+    rank = np.concatenate([np.zeros(len(curves)), np.full(len(through), 2.0), np.ones(len(stops))])
+    order = np.lexsort((time, rank, curve))
+    curve, time, node = curve[order].astype(np.int64), time[order], node[order]
+    shift = vertices[node] - _at(curves, curve, time)
+    piece = np.flatnonzero(curve[1:] == curve[:-1])
+
+    t = np.arange(SAMPLES)
+    t0, t1 = time[piece, None], time[piece + 1, None]
+    inside = (t > t0 + 0.25) & (t < t1 - 0.25)
+    u = np.clip((t - t0) / np.maximum(t1 - t0, 1e-9), 0, 1)
+    u = (u * u * (3 - 2 * u))[..., None]
+    body = curves[curve[piece]] + shift[piece, None] * (1 - u) + shift[piece + 1, None] * u
+    rows = np.concatenate([vertices[node[piece], None], body, vertices[node[piece + 1], None]], 1)
+    yes = np.ones((len(piece), 1), bool)
+    mask = np.concatenate([yes, inside, yes], 1)
+
+    result = PlanarGraph(
+        vertices.astype(np.float32),
+        np.concatenate([branch_points, rows[mask]]).astype(np.float32),
+        np.concatenate([[0], np.cumsum(np.concatenate([counts, mask.sum(1)]))]).astype(np.int32),
+        np.concatenate([branch_ends, np.stack([node[piece], node[piece + 1]], -1)]).astype(
+            np.int32
+        ),
+    )
+    return join(select(result, np.ones(result.branch_count, bool)))
