@@ -53,7 +53,7 @@ class Bank:
     as much as a new page.
     """
 
-    def __init__(self, library: Library, seed: int, size: int = 2000, renew: float = 0.3) -> None:
+    def __init__(self, library: Library, seed: int, size: int = 2000, renew: float = 0.2) -> None:
         self.library, self.size, self.renew = library, size, renew
         self.rng = np.random.default_rng(seed)
         self.pages: list[Page] = []

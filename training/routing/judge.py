@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import torch
-
-from .likelihood import involutions, log_probabilities
+from involute.engine.routing.matching import MAX_LISTED_DEGREE, pair_matrix
+from involute.engine.values import PlanarGraph
 
 Array = np.ndarray
 
@@ -32,47 +31,87 @@ class Verdict:
     def correct(self) -> Array:
         return self.rank == 0
 
+    @property
+    def errors(self) -> Array:
+        """Pairs missed and pairs wrongly made, at each junction."""
+        return self.true + self.made - 2 * self.right
+
     def summary(self, keep: Array | None = None) -> dict[str, float]:
         """Rates over the junctions of `keep` (J,) bool, or over all."""
         keep = np.ones(len(self.degree), bool) if keep is None else keep
         true, made, right = (int(v[keep].sum()) for v in (self.true, self.made, self.right))
+        some = bool(keep.any())
         return {
             "junctions": int(keep.sum()),
             "pairs_right": right / max(true, 1),
             "pairs_wrong": 1 - right / max(made, 1),
-            "junctions_right": float(self.correct[keep].mean()) if keep.any() else 0.0,
+            "junctions_right": float(self.correct[keep].mean()) if some else 0.0,
             "made_per_true": made / max(true, 1),
-            "top2": float((self.rank[keep] < 2).mean()) if keep.any() else 0.0,
+            "top2": float((self.rank[keep] < 2).mean()) if some else 0.0,
             "calibration_error": calibration_error(self.probability[keep], self.correct[keep]),
-            "loss": float(self.loss[keep].mean()) if keep.any() else 0.0,
+            "doubt_removes": self.removed_by_doubt(0.1, keep),
+            "loss": float(self.loss[keep].mean()) if some else 0.0,
         }
+
+    def removed_by_doubt(self, share: float, keep: Array) -> float:
+        """Share of all errors at the most doubtful `share` of the junctions."""
+        worst = np.argsort(self.probability[keep], kind="stable")
+        errors = self.errors[keep][worst]
+        return float(errors[: round(share * len(errors))].sum() / max(errors.sum(), 1))
 
 
 def judge(scores: Array, mask: Array, truth: Array) -> Verdict:
     """Decide every junction by the most probable involution and compare with the truth.
 
     Args:
-        scores, truth: (J, D, D) symmetric; mask: (J, D).
+        scores, truth: (J, D, D) symmetric; mask: (J, D), filled from the left.
     """
     degrees = mask.sum(1).astype(int)
     out = {name: np.zeros(len(scores)) for name in Verdict.__dataclass_fields__}
     for degree in np.unique(degrees):
         rows = np.flatnonzero(degrees == degree)
-        table = involutions(degree)
-        logs = log_probabilities(torch.from_numpy(scores[rows]).float(), degree).numpy()
-        real = truth[rows][:, :degree, :degree]
-        best = logs.argmax(1)
-        agree = (table.reshape(len(table), -1) @ (real * 2 - 1).reshape(len(rows), -1).T).T
-        at = agree.argmax(1)
-        mine = logs[np.arange(len(rows)), at]
+        a, b = np.triu_indices(degree, 1)
+        ways = pair_matrix(degree).astype(np.float64)
+        total = scores[rows][:, a, b] @ ways.T
+        real = truth[rows][:, a, b]
+        each = np.arange(len(rows))
+        at = (real @ (2 * ways - 1).T - ways.sum(1)).argmax(1)
+        best = total.argmax(1)
+        top = total[each, best]
+        norm = top + np.log(np.exp(total - top[:, None]).sum(1))
         out["degree"][rows] = degree
-        out["true"][rows] = real.sum((1, 2)) / 2
-        out["made"][rows] = table[best].sum((1, 2)) / 2
-        out["right"][rows] = (table[best] * real).sum((1, 2)) / 2
-        out["probability"][rows] = np.exp(logs[np.arange(len(rows)), best])
-        out["rank"][rows] = (logs > mine[:, None] + 1e-9).sum(1)
-        out["loss"][rows] = -mine
+        out["true"][rows] = real.sum(1)
+        out["made"][rows] = ways[best].sum(1)
+        out["right"][rows] = (ways[best] * real).sum(1)
+        out["probability"][rows] = np.exp(top - norm)
+        out["rank"][rows] = (total > total[each, at][:, None] + 1e-9).sum(1)
+        out["loss"][rows] = norm - total[each, at]
     return Verdict(**out)
+
+
+def tables(
+    graph: PlanarGraph, pairs: Array, pair_score: Array, partner: Array
+) -> tuple[Array, Array, Array]:
+    """Scores, mask and truth of a drawing for `judge`, junctions in the graph's order.
+
+    Junctions with more half-branches than involutions are listed for are left out.
+    """
+    order, starts = graph.halves_at
+    kept = graph.junctions[graph.degrees[graph.junctions] <= MAX_LISTED_DEGREE]
+    degree = graph.degrees[kept]
+    slots = int(degree.max(initial=3))
+    row = np.full(len(graph.vertices), -1)
+    row[kept] = np.arange(len(kept))
+    place = np.empty(len(order), int)
+    place[order] = np.arange(len(order)) - starts[graph.half_vertex[order]]
+    at = row[graph.half_vertex[pairs[:, 0]]]
+    known = at >= 0
+    at, (a, b) = at[known], pairs[known].T
+    scores = np.zeros((len(kept), slots, slots))
+    truth = np.zeros_like(scores)
+    scores[at, place[a], place[b]] = scores[at, place[b], place[a]] = pair_score[known]
+    truth[at, place[a], place[b]] = truth[at, place[b], place[a]] = partner[a] == b
+    return scores, (np.arange(slots) < degree[:, None]).astype(np.float32), truth
 
 
 def calibration_error(probability: Array, correct: Array, bins: int = 15) -> float:

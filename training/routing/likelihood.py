@@ -7,42 +7,12 @@ symmetric Gumbel noise, Sinkhorn iterations, cross-entropy and the Frobenius dis
 
 from __future__ import annotations
 
-from functools import cache
-
 import numpy as np
 import torch
-from involute.engine.routing.encoding import MAX_DEGREE
+from involute.engine.routing.matching import pair_matrix
 from torch import Tensor
 
 _BLOCKED = -1e4
-
-
-@cache
-def involutions(degree: int) -> np.ndarray:
-    """(N, degree, degree) float32: all symmetric 0/1 matrices of disjoint pairs, zero diagonal."""
-
-    def grow(free: tuple[int, ...]) -> list[list[tuple[int, int]]]:
-        if not free:
-            return [[]]
-        a, rest = free[0], free[1:]
-        found = grow(rest)
-        for k, b in enumerate(rest):
-            found += [[(a, b), *more] for more in grow(rest[:k] + rest[k + 1 :])]
-        return found
-
-    ways = grow(tuple(range(degree)))
-    table = np.zeros((len(ways), degree, degree), np.float32)
-    for row, pairs in enumerate(ways):
-        for a, b in pairs:
-            table[row, a, b] = table[row, b, a] = 1
-    return table
-
-
-def log_probabilities(scores: Tensor, degree: int) -> Tensor:
-    """(J, N) log-probability of each of the N involutions of junctions of one degree."""
-    table = torch.from_numpy(involutions(degree)).to(scores.device).reshape(-1, degree * degree)
-    total = scores[:, :degree, :degree].reshape(len(scores), -1) @ table.T / 2
-    return torch.log_softmax(total, dim=1)
 
 
 def exact(scores: Tensor, mask: Tensor, truth: Tensor) -> Tensor:
@@ -50,12 +20,12 @@ def exact(scores: Tensor, mask: Tensor, truth: Tensor) -> Tensor:
     degrees = mask.sum(1).long()
     loss = scores.new_zeros(len(scores))
     right = (scores * truth).sum((1, 2)) / 2
-    for degree in range(3, MAX_DEGREE + 1):
+    for degree in range(3, scores.shape[1] + 1):
         rows = torch.nonzero(degrees == degree)[:, 0]
         if len(rows):
-            table = torch.from_numpy(involutions(degree)).to(scores.device)
-            some = scores[rows][:, :degree, :degree].reshape(len(rows), -1)
-            total = torch.logsumexp(some @ table.reshape(len(table), -1).T / 2, dim=1)
+            a, b = np.triu_indices(degree, 1)
+            ways = torch.from_numpy(pair_matrix(degree)).to(scores.device)
+            total = torch.logsumexp(scores[rows][:, a, b] @ ways.T, dim=1)
             loss = loss.index_add(0, rows, total - right[rows])
     return loss
 

@@ -32,7 +32,10 @@ SOURCES = {
 # Drawings with so few strokes that they say little alone.
 _DOODLES = {"quickdraw_raw", "quickdraw_simplified", "icons_permissive", "kanjivg"}
 _HELD_OUT = 12  # one drawing in so many is kept for validation
-_MAX_STROKES = 700
+_MAX_STROKES = 220
+# Typical length of a stroke on a page, px, shortest and longest; and the same for a drawing.
+_STROKE = (50.0, 220.0)
+_SIZE = (120.0, 1600.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,30 +79,40 @@ class Library:
         source = str(rng.choice(names, p=weight / weight.sum()))
         doodle = source in _DOODLES
         if rng.random() < (0.1 if doodle else 0.6):
-            size = np.exp(rng.uniform(np.log(250), np.log(1024)))
-            return _placed(self.pick(rng, source), size, rng.uniform(0, 2 * np.pi), np.zeros(2))
+            drawing = self.pick(rng, source)
+            return _placed(rng, drawing, _size(rng, drawing), np.zeros(2))
         return self._composed(
-            rng, source, int(rng.integers(4, 12) if doodle else rng.integers(2, 6))
+            rng, source, int(rng.integers(4, 12) if doodle else rng.integers(2, 5))
         )
 
     def _composed(self, rng: np.random.Generator, source: str, count: int) -> list[Array]:
-        size = np.exp(rng.uniform(np.log(150), np.log(500)))
-        spread = size * rng.uniform(0.3, 0.9) * np.sqrt(count) / 2
+        drawings = [self.pick(rng, source) for _ in range(count)]
+        sizes = [_size(rng, drawing) for drawing in drawings]
+        spread = np.median(sizes) * rng.uniform(0.3, 0.9) * np.sqrt(count) / 2
         page: list[Array] = []
-        for _ in range(count):
-            drawing = self.pick(rng, source)
+        for drawing, size in zip(drawings, sizes, strict=True):
             if page and len(page) + len(drawing) > _MAX_STROKES:
                 break
-            page += _placed(
-                drawing,
-                size * np.exp(rng.normal(0, 0.35)),
-                rng.uniform(0, 2 * np.pi),
-                rng.uniform(-spread, spread, 2),
-            )
+            page += _placed(rng, drawing, size, rng.uniform(-spread, spread, 2))
         return page
 
 
-def _placed(drawing: list[Array], size: float, angle: float, where: Array) -> list[Array]:
+def _size(rng: np.random.Generator, drawing: list[Array]) -> float:
+    """A size in px at which the strokes of a drawing are as long as on a drawn page."""
+    lengths = [np.hypot(*np.diff(line, axis=0).T).sum() for line in drawing]
+    wanted = np.exp(rng.uniform(*np.log(_STROKE)))
+    return float(np.clip(wanted / max(float(np.median(lengths)), 1e-3), *_SIZE))
+
+
+def _placed(
+    rng: np.random.Generator, drawing: list[Array], size: float, where: Array
+) -> list[Array]:
+    """A drawing (longer side about 1) at a size in px, turned at random; a part of it if large."""
+    if len(drawing) > _MAX_STROKES:
+        middle = np.array([line[len(line) // 2] for line in drawing])
+        far = np.hypot(*(middle - middle[rng.integers(len(middle))]).T)
+        drawing = [drawing[k] for k in np.argsort(far)[:_MAX_STROKES]]
+    angle = rng.uniform(0, 2 * np.pi)
     cos, sin = size * np.cos(angle), size * np.sin(angle)
     return [line @ np.array([[cos, sin], [-sin, cos]]) + where for line in drawing]
 

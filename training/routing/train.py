@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import math
 import time
 from pathlib import Path
 
@@ -60,7 +61,7 @@ def train(args: argparse.Namespace) -> None:
     for step in range(first, args.steps):
         warm = min(1.0, (step + 1) / 200)
         for group in optimizer.param_groups:
-            group["lr"] = args.rate * warm * (0.02 + 0.49 * (1 + np.cos(np.pi * step / args.steps)))
+            group["lr"] = args.rate * warm * (0.02 + 0.49 * (1 + math.cos(math.pi * step / args.steps)))
         # Junctions of more than six are rare: a wider table is only now and then worth its time.
         batch = bank.batch(args.junctions, 8 if step % 5 == 0 else 6)
         scores = run(net, batch, args.device)

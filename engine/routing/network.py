@@ -1,0 +1,105 @@
+"""Log-odds that two half-branches are one line, by the trained network.
+
+The network sees the whole drawing at once: see `encoding` for its input and training/routing for
+its making. OpenCV runs it; its cost and memory grow linearly with the number of junctions.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from functools import cache
+from pathlib import Path
+from threading import Lock
+
+import numpy as np
+
+from ..errors import InvoluteError
+from ..settings import Settings
+from ..values import Array, Pair, PlanarGraph
+from . import geometric
+from .encoding import encode
+
+_WEIGHTS = Path(__file__).resolve().parent.parent / "weights"
+_running = Lock()
+
+
+def available() -> bool:
+    """Whether the weights are there."""
+    return (_WEIGHTS / "routing.onnx").exists()
+
+
+def score(
+    graph: PlanarGraph,
+    pairs: Array,
+    fixed: Mapping[int, tuple[Pair, ...]] | None = None,
+    settings: Settings | None = None,
+) -> Array:
+    """Calibrated log-odds of joining pairs of half-branches.
+
+    Args:
+        graph: the drawing.
+        pairs: (K, 2) half-branches that share a junction.
+        fixed: junction number -> the pairs that the user has decided there; the network takes
+            them as given.
+        settings: not used yet; scorers share one signature.
+
+    Returns:
+        (K,) float32 log-odds of joining each pair against ending both. Pairs at junctions with
+        more half-branches than the network has learnt get their geometric score.
+
+    Raises:
+        InvoluteError: the weights are missing or can't be read.
+    """
+    encoding = encode(graph, fixed)
+    table = _forward(encoding.tokens, encoding.pairs, encoding.sibling, encoding.mask)
+    slots = encoding.halves.shape[1]
+    slot = np.full(2 * graph.branch_count, -1)
+    filled = np.flatnonzero(encoding.halves.reshape(-1) >= 0)
+    slot[encoding.halves.reshape(-1)[filled]] = filled
+    a, b = slot[pairs[:, 0]], slot[pairs[:, 1]]
+    known = (a >= 0) & (b >= 0)
+    found = np.zeros(len(pairs), np.float32)
+    found[known] = table[a[known] // slots, a[known] % slots, b[known] % slots]
+    if not known.all():
+        found[~known] = geometric.score(graph, pairs[~known])
+    return found
+
+
+def _forward(tokens: Array, pairs: Array, sibling: Array, mask: Array) -> Array:
+    """(J, D, D) calibrated scores."""
+    if not len(tokens):
+        return np.zeros((*mask.shape, mask.shape[1]), np.float32)
+    with _running:  # a net holds the state of its last run
+        net, calibration = _load()
+        net.setInput(tokens, "tokens")
+        net.setInput(pairs, "pairs")
+        net.setInput(sibling.reshape(-1).astype(np.int64), "sibling")
+        net.setInput(mask, "mask")
+        scores = net.forward()
+    return calibrated(scores, mask.sum(1), calibration)
+
+
+def calibrated(scores: Array, degree: Array, calibration: Mapping[str, list[float]]) -> Array:
+    """Raw scores made into log-odds that hold: scale and shift by the degree of the junction.
+
+    Args:
+        scores: (J, D, D); degree: (J,) half-branches at each junction.
+        calibration: "scale" and "shift", one number for each degree from 3; the last one also
+            serves all higher degrees.
+    """
+    scale, shift = (np.asarray(calibration[name], np.float32) for name in ("scale", "shift"))
+    row = np.clip(degree.astype(int) - 3, 0, len(scale) - 1)
+    return scores * scale[row][:, None, None] + shift[row][:, None, None]
+
+
+@cache
+def _load():
+    import cv2
+
+    try:
+        net = cv2.dnn.readNetFromONNX(str(_WEIGHTS / "routing.onnx"), cv2.dnn.ENGINE_NEW)
+        calibration = json.loads((_WEIGHTS / "routing.json").read_text())
+    except (cv2.error, OSError, ValueError) as error:
+        raise InvoluteError("The weights of the routing network are missing or damaged.") from error
+    return net, calibration
