@@ -12,6 +12,7 @@ from pathlib import Path
 
 import numpy as np
 import torch
+from involute.engine.routing.encoding import PAIR_SIZE, TOKEN_SIZE
 
 from .data import Batch
 from .likelihood import exact
