@@ -24,8 +24,9 @@ import numpy as np
 from .drawings import DATA, Page, pages
 from .methods import METHODS
 from .metrics import Score, evaluate, summarize
+from .tables import markdown
 
-# Column of the table: figure, how to print it, which way is better.
+# Column of the table: which figure, and how to print it.
 COLUMNS = {
     "Chamfer px": ("chamfer", "{:.2f}"),
     "length diff px": ("length_diff", "{:.0f}"),
@@ -100,19 +101,12 @@ def _write_svg(strokes: list[np.ndarray], path: Path) -> None:
 
 def table(rows: dict[str, list[Result]], head: str) -> str:
     """A Markdown table, a row per name."""
-    cells = [[head, *COLUMNS, "CPU s"]]
+    cells = []
     for name, results in rows.items():
         figures = summarize(r.score for r in results)
-        seconds = np.median([r.seconds for r in results])
         values = [form.format(figures[key]) for key, form in COLUMNS.values()]
-        cells.append([name, *values, f"{seconds:.2f}"])
-    widths = [max(len(row[k]) for row in cells) for k in range(len(cells[0]))]
-    lines = [
-        "| " + " | ".join(cell.ljust(w) for cell, w in zip(row, widths, strict=True)) + " |"
-        for row in cells
-    ]
-    lines.insert(1, "|" + "|".join("-" * (w + 2) for w in widths) + "|")
-    return "\n".join(lines)
+        cells.append([name, *values, f"{np.median([r.seconds for r in results]):.2f}"])
+    return markdown([head, *COLUMNS, "CPU s"], cells)
 
 
 def main(argv: list[str] | None = None) -> int:
