@@ -23,10 +23,15 @@ class CenterlineProvider(Protocol):
 
 def provider_for(settings: Settings) -> CenterlineProvider:
     """The provider that the settings ask for; "auto" = the network when its weights are there."""
-    from . import classical, given, network
-
     if settings.provider == "given":
-        return given.given
-    if settings.provider == "network" or (settings.provider == "auto" and network.available()):
-        return network.provider(settings)
-    return classical.classical
+        from .given import given
+
+        return given
+    if settings.provider != "classical":
+        from . import network
+
+        if settings.provider == "network" or network.available():
+            return network.provider(settings)
+    from .classical import classical
+
+    return classical
