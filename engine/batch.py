@@ -14,7 +14,7 @@ import re
 import subprocess
 import sys
 import threading
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from contextlib import suppress
 from dataclasses import dataclass, field
@@ -56,7 +56,13 @@ class Outcome:
     resumed: bool = False
 
 
-def run(tasks: Iterable[Task], *, jobs: int = 0, resume: bool = False) -> Iterator[Outcome]:
+def run(
+    tasks: Iterable[Task],
+    *,
+    jobs: int = 0,
+    resume: bool = False,
+    progress: Callable[[str, float], None] | None = None,
+) -> Iterator[Outcome]:
     """Trace many images; yields every outcome as soon as it is there, in no fixed order.
 
     Closing the iterator stops the work; no output is ever left half-written.
@@ -65,6 +71,7 @@ def run(tasks: Iterable[Task], *, jobs: int = 0, resume: bool = False) -> Iterat
         jobs: processes at once; 0 = one per CPU core. 1 works in this process.
         resume: leave out what an earlier run with `resume` has made of the same image bytes with
             the same settings; also keeps the receipts that a later run needs for that.
+        progress: called as progress(stage, fraction of the image) when working in this process.
     """
     tasks = list(tasks)
     jobs = min(jobs or os.cpu_count() or 1, len(tasks))
@@ -72,7 +79,8 @@ def run(tasks: Iterable[Task], *, jobs: int = 0, resume: bool = False) -> Iterat
         _remove_leftovers(tasks)
     if jobs <= 1:
         for task in tasks:
-            yield (_done_before(task) if resume else None) or _outcome(task, perform(task, resume))
+            before = _done_before(task) if resume else None
+            yield before or _outcome(task, perform(task, resume, progress))
         return
     pool = _Workers(jobs, resume)
     executor = ThreadPoolExecutor(jobs, thread_name_prefix="involute")
@@ -85,14 +93,16 @@ def run(tasks: Iterable[Task], *, jobs: int = 0, resume: bool = False) -> Iterat
         executor.shutdown(wait=True, cancel_futures=True)
 
 
-def perform(task: Task, receipt: bool = False) -> dict[str, Any]:
+def perform(
+    task: Task, receipt: bool = False, progress: Callable[[str, float], None] | None = None
+) -> dict[str, Any]:
     """Trace one image in this process; returns {"report": ...} or {"error": sentence}."""
     from .pipeline import vectorize
 
     try:
         with suppress(OSError):  # a missing file is vectorize's to report
             key = fingerprint(task) if receipt else ""
-        drawing = vectorize(task.source, task.settings, page=task.page)
+        drawing = vectorize(task.source, task.settings, progress, page=task.page)
         for output in task.outputs:
             drawing.save(output)
         report = summary(drawing)
