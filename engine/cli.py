@@ -35,6 +35,8 @@ _HELP = {
     "provider": "what finds the centre of the lines; 'given' = the input already is such an image",
     "solids": "trace solid black areas as lines too, instead of making them fills",
     "inks": "make all strokes black instead of the colour of their ink",
+    "ignore_inks": "inks that are not traced, such as blue or blue,gray",
+    "marks": "trace scan borders, punched holes and registration marks too",
     "min_length": "drop loose strokes shorter than this many pen widths",
     "smoothing": "0 keeps every wobble, 1 is very smooth",
     "router": "what decides how strokes run through junctions",
