@@ -210,18 +210,6 @@ def summarize(scores: Iterable[Score]) -> dict[str, float]:
     }
 
 
-def compare(prediction: str | PathLike[str], truth: str | PathLike[str]) -> dict[str, float]:
-    """The figures of one traced SVG against the SVG of the true strokes, for `involute evaluate`.
-
-    Raises:
-        ValueError: a file can't be read; see `read_svg`.
-    """
-    score = evaluate(read_svg(prediction), read_svg(truth))
-    figures = summarize([score])
-    counts = {"strokes": score.strokes, "true_strokes": score.true_strokes}
-    return counts | {k: v for k, v in figures.items() if k not in ("drawings", "failed")}
-
-
 # --- reading ---------------------------------------------------------------------------------
 
 _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
