@@ -17,6 +17,7 @@ from .centerline import provider_for
 from .drawing import Drawing
 from .errors import Cancelled
 from .graph import build_graph, measure
+from .registration import set_aside
 from .routing import route
 from .scan import read_scan
 from .settings import Settings
@@ -26,7 +27,14 @@ Progress = Callable[[str, float], None]
 Source = str | PathLike[str] | np.ndarray
 
 # What each stage takes of the whole time, for a progress bar that moves evenly.
-_SHARES = {"scan": 0.1, "solids": 0.05, "centerline": 0.55, "graph": 0.1, "routing": 0.1, "strokes": 0.1}
+_SHARES = {
+    "scan": 0.1,
+    "solids": 0.05,
+    "centerline": 0.55,
+    "graph": 0.1,
+    "routing": 0.1,
+    "strokes": 0.1,
+}
 
 
 def vectorize(
@@ -55,7 +63,7 @@ def vectorize(
     settings = settings or Settings()
     clock = _Clock(progress)
     with clock("scan"):
-        scan = read_scan(source, settings, page=page)
+        scan = set_aside(read_scan(source, settings, page=page), settings)
     with clock("solids"):
         lines, fills = split_solids(scan, settings)
     with clock("centerline") as tick:

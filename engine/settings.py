@@ -13,6 +13,8 @@ Router = Literal["auto", "network", "geometric"]
 Device = Literal["auto", "cpu", "gpu"]
 Curve = Literal["polyline", "bezier"]
 
+INKS = ("red", "orange", "yellow", "green", "cyan", "blue", "purple", "pink", "gray")
+
 _CHOICES: dict[str, tuple[str, ...]] = {
     "polarity": ("auto", "dark", "light"),
     "provider": ("auto", "network", "classical", "given"),
@@ -39,6 +41,10 @@ class Settings:
             a centerline image, white on black), or "auto" (the network when its weights are there).
         solids: take solid black areas out as fills instead of tracing them.
         inks: give the strokes the colour of their ink; off = all strokes are black.
+        ignore_inks: inks that are not traced, such as a blue construction pencil; see `INKS`.
+        marks: leave out scan borders, punched holes and registration marks.
+        align: where the punched holes (or marks) shall lie, in px of the input; the page is turned
+            and moved to that; see `registration.anchors_of`. Empty = the page stays as it lies.
 
     How clean
         min_length: strokes shorter than this many pen widths that hang on nothing are dropped.
@@ -57,6 +63,9 @@ class Settings:
     provider: Provider = "auto"
     solids: bool = True
     inks: bool = True
+    ignore_inks: tuple[str, ...] = ()
+    marks: bool = True
+    align: tuple[tuple[float, float], ...] = ()
     min_length: float = 1.0
     smoothing: float = 0.3
     router: Router = "auto"
@@ -65,6 +74,12 @@ class Settings:
     device: Device = "auto"
 
     def __post_init__(self) -> None:
+        # Files and command lines give lists; a setting has to be a value that can be compared.
+        object.__setattr__(self, "ignore_inks", tuple(self.ignore_inks))
+        object.__setattr__(self, "align", tuple((float(x), float(y)) for x, y in self.align))
+        for name in self.ignore_inks:
+            if name not in INKS:
+                raise InvoluteError(f"There is no ink {name!r}; choose from {', '.join(INKS)}.")
         for name, allowed in _CHOICES.items():
             if getattr(self, name) not in allowed:
                 raise InvoluteError(
