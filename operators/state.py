@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import zlib
 from collections import OrderedDict
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from hashlib import blake2b
 from typing import TYPE_CHECKING, Any
 
@@ -88,8 +88,8 @@ def add(data: bpy.types.ID, drawing: Drawing, placement: Placement, source: str)
     return key
 
 
-def store(data: bpy.types.ID, trace: Trace) -> None:
-    """Store a trace under its key, in place of what was there."""
+def store(data: bpy.types.ID, trace: Trace) -> Trace:
+    """Store a trace under its key, in place of what was there; return it with its stamp."""
     blob = _encode(trace.drawing)
     stamp = blake2b(blob, digest_size=16).hexdigest()
     root = data.get(PROPERTY)
@@ -103,6 +103,7 @@ def store(data: bpy.types.ID, trace: Trace) -> None:
         "source": trace.source,
     }
     _remember(stamp, trace.drawing)
+    return replace(trace, stamp=stamp)
 
 
 def separate(data: bpy.types.ID, frame: int, trace: Trace) -> Trace:
@@ -119,9 +120,7 @@ def separate(data: bpy.types.ID, frame: int, trace: Trace) -> Trace:
         column = gp.read_column(drawing, gp.TRACE)
         if column is not None and (column == trace.key).any():
             gp.set_column(drawing, gp.TRACE, np.where(column == trace.key, key, column))
-    own = Trace(key, trace.drawing, trace.placement, trace.source, trace.stamp)
-    store(data, own)
-    return own
+    return store(data, replace(trace, key=key))
 
 
 def _users(drawings: list[object], key: int) -> int:

@@ -77,6 +77,28 @@ def grid(part: Part, lines: int, **settings):
     return draw(part, planar_graph(part, [vertices[k] for k in used], branches), size, **settings)
 
 
+def ring_and_lines(part: Part, **settings):
+    """A circle that two lines cross, a loop that hangs on one junction: closed strokes to open."""
+    angles = np.deg2rad([0, 90, 180, 270])
+    ring = np.array([200, 150]) + 80 * np.stack([np.cos(angles), np.sin(angles)], 1)
+    tips = np.array([200, 150]) + 130 * np.stack([np.cos(angles), np.sin(angles)], 1)
+    vertices = [*ring, *tips, (200, 150)]
+
+    def arc(start, stop, centre=(200, 150), radius=80):
+        turn = np.deg2rad(np.linspace(start, stop, 14)[1:-1])
+        return np.array(centre) + radius * np.stack([np.cos(turn), np.sin(turn)], 1)
+
+    def straight(a, b):
+        a, b = np.array(vertices[a]), np.array(vertices[b])
+        return a + np.linspace(0, 1, 5)[1:-1, None] * (b - a)
+
+    branches = [(k, (k + 1) % 4, arc(90 * k, 90 * k + 90)) for k in range(4)]
+    branches += [(k, 4 + k, straight(k, 4 + k)) for k in range(4)]
+    branches += [(k, 8, straight(k, 8)) for k in range(4)]
+    branches.append((4, 4, arc(180, 540, centre=(350, 150), radius=20)))
+    return draw(part, planar_graph(part, vertices, branches), **settings)
+
+
 def many_strokes(part: Part, count: int, points: int):
     """A drawing of separate strokes with that many points each."""
     values, drawing = part("engine.values"), part("engine.drawing")
