@@ -11,8 +11,6 @@ from itertools import pairwise
 import torch
 from torch import Tensor, nn
 
-from .targets import MAX_HALF_WIDTH
-
 WIDTHS = (32, 64, 128, 192)
 STRIDE = 2 ** len(WIDTHS)  # both sides of an input are multiples of this
 HEADS = ("centerline", "junctions", "endpoints", "half_width", "solid")
@@ -59,13 +57,11 @@ class CenterlineNet(nn.Module):
 
 
 class Exported(nn.Module):
-    """The network with its final activations: probabilities, and the half-width in px."""
+    """The network with its final activation: all maps in [0, 1]."""
 
     def __init__(self, net: CenterlineNet) -> None:
         super().__init__()
         self.net = net
 
     def forward(self, ink: Tensor) -> Tensor:
-        raw = self.net(ink)
-        spots, half, solid = raw[:, :3], raw[:, 3:4], raw[:, 4:]
-        return torch.cat([spots.sigmoid(), half.sigmoid() * MAX_HALF_WIDTH, solid.sigmoid()], 1)
+        return self.net(ink).sigmoid()

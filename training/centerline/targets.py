@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import shapely
+from involute.engine.centerline.network import HALF_WIDTH_UNIT
 from scipy.spatial import cKDTree
 
 from .geometry import Array
@@ -13,7 +14,7 @@ from .media import STEP, Samples, nearest
 
 RIDGE_SIGMA = 0.8  # px; a ridge about 2 px wide keeps a valley between lines 3 px apart
 SPOT_SIGMA = 1.5  # px, of a junction or an endpoint
-MAX_HALF_WIDTH = 10.5
+MAX_HALF_WIDTH = HALF_WIDTH_UNIT
 _TOUCH = 1.5  # px between an end and another line that still is a touch
 _MIN_ANGLE = np.sin(np.deg2rad(8))  # shallower crossings have no definite place
 

@@ -1,0 +1,81 @@
+"""What runs the network: OpenCV everywhere, torch on a GPU when it happens to be installed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache
+from importlib.util import find_spec
+from pathlib import Path
+from threading import Lock
+
+import cv2
+import numpy as np
+
+from ..errors import InvoluteError
+from ..settings import Device
+from ..values import Array
+
+Infer = Callable[[Array], Array]
+"""(h, w) float32 ink in [0, 1] -> (C, h, w) float32; h and w are multiples of the stride."""
+
+
+@cache
+def load(weights: Path, device: Device) -> Infer:
+    """The network in a file, on a device; loaded once per process.
+
+    Raises:
+        InvoluteError: the file is missing or broken, or there is no GPU though one is asked for.
+    """
+    if not weights.exists():
+        raise InvoluteError(
+            f"The weights of the centerline network ({weights.name}) are missing; reinstall "
+            "Involute, or choose the classical provider."
+        )
+    gpu = None if device == "cpu" else _torch_gpu()
+    if gpu:
+        return _torch(weights, gpu)
+    if device == "gpu":
+        raise InvoluteError("Found no GPU that torch can use; choose the device 'auto' or 'cpu'.")
+    return _opencv(weights)
+
+
+def _opencv(weights: Path) -> Infer:
+    try:
+        # From memory: OpenCV can't open every path that Python can.
+        data = np.frombuffer(weights.read_bytes(), np.uint8)
+        net = cv2.dnn.readNetFromONNX(data, engine=cv2.dnn.ENGINE_NEW)
+    except cv2.error as error:
+        raise InvoluteError(f"Can't read the weights in {weights.name}.") from error
+    running = Lock()
+
+    def infer(ink: Array) -> Array:
+        with running:  # a net holds the state of its last run
+            net.setInput(ink[None, None])
+            return net.forward()[0]
+
+    return infer
+
+
+def _torch_gpu() -> str | None:
+    """The GPU that torch offers, or None."""
+    if find_spec("torch") is None:
+        return None
+    import torch
+
+    if torch.cuda.is_available():
+        return "cuda"
+    return "mps" if torch.backends.mps.is_available() else None
+
+
+def _torch(weights: Path, device: str) -> Infer:
+    import torch
+
+    from .onnx_torch import module
+
+    net = module(weights.read_bytes()).to(device)
+
+    def infer(ink: Array) -> Array:
+        with torch.inference_mode():
+            return net(torch.from_numpy(ink[None, None]).to(device))[0].cpu().numpy()
+
+    return infer

@@ -1,0 +1,191 @@
+"""Tiles: the inked part of a page, cut into rectangles that a network can look at one by one.
+
+White paper is never looked at; memory is bounded by the tile. A tile's answer counts fully inside
+its rectangle and fades to nothing across the border. The fade is the rectangle blurred by a box,
+and rectangles that don't overlap sum to 1: so the answers of all tiles are simply added, and no
+seam can be seen.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+
+from ..values import Array
+
+BLOCK = 64  # px; tiles begin and end at multiples of it (and of the network's stride)
+CONTEXT = 64  # px that a network sees beyond a tile, so that the tile's size makes no difference
+LARGEST = 1024  # px; longest side of a tile
+_FADE = 8  # px on either side of a tile's border
+_CELL = 16  # px; ink is looked for in cells of this size
+_INK = 0.04  # mean of 3x3 px above which paper counts as inked
+_OVERHEAD = 0.3  # blocks; what the call of a network costs beside its pixels
+
+
+@dataclass(frozen=True)
+class Tile:
+    """Half-open ranges in px: the tile, and the window that the network sees."""
+
+    top: int
+    left: int
+    bottom: int
+    right: int
+
+    def window(self, height: int, width: int) -> tuple[slice, slice]:
+        """Rows and columns of the tile and its context, on a page of the given size."""
+        rows = slice(max(0, self.top - CONTEXT), min(height, self.bottom + CONTEXT))
+        return rows, slice(max(0, self.left - CONTEXT), min(width, self.right + CONTEXT))
+
+
+def plan(ink: Array) -> list[Tile]:
+    """Tiles that cover all ink of a page, (H, W) float32, and as little paper as possible."""
+    height, width = ink.shape
+    active = _active_blocks(ink)
+    tiles = []
+    for top, left, bottom, right in _cover(active, LARGEST // BLOCK):
+        tiles.append(
+            Tile(
+                top * BLOCK,
+                left * BLOCK,
+                min(bottom * BLOCK, height),
+                min(right * BLOCK, width),
+            )
+        )
+    return tiles
+
+
+def _active_blocks(ink: Array) -> Array:
+    """Which blocks of BLOCK px hold ink, or have some within _CELL px; 2-D bool."""
+    height, width = ink.shape
+    rows, columns = -(-height // _CELL), -(-width // _CELL)
+    cells = np.zeros((rows, columns), np.uint8)
+    band = 32 * _CELL  # bands of rows keep the copies small
+    for top in range(0, height, band):
+        seen = cv2.blur(ink[top : top + band], (3, 3)) > _INK
+        seen = np.pad(seen, ((0, -len(seen) % _CELL), (0, -width % _CELL)))
+        shape = (len(seen) // _CELL, _CELL, columns, _CELL)
+        cells[top // _CELL :][: shape[0]] = seen.reshape(shape).any((1, 3))
+    cells = cv2.dilate(cells, np.ones((3, 3), np.uint8))
+    per = BLOCK // _CELL
+    cells = np.pad(cells, ((0, -rows % per), (0, -columns % per)))
+    return cells.reshape(cells.shape[0] // per, per, -1, per).any((1, 3))
+
+
+def _cover(active: Array, largest: int) -> list[tuple[int, int, int, int]]:
+    """Disjoint rectangles (top, left, bottom, right) in blocks over all active blocks.
+
+    A rectangle is halved where that leaves the least to look at, as long as it is too large or
+    halving is cheaper than not.
+    """
+    done, open_ = [], [(0, 0, *active.shape)]
+    while open_:
+        box = _trim(active, open_.pop())
+        if box is None:
+            continue
+        top, left, bottom, right = box
+        inside = active[top:bottom, left:right]
+        cost_y, y = _best_cut(inside)
+        cost_x, x = _best_cut(inside.T)
+        too_large = max(inside.shape) > largest
+        if not too_large and min(cost_x, cost_y) >= _cost(*inside.shape):
+            done.append(box)
+        elif cost_y <= cost_x:
+            open_ += [(top, left, top + y, right), (top + y, left, bottom, right)]
+        else:
+            open_ += [(top, left, bottom, left + x), (top, left + x, bottom, right)]
+    return sorted(done)
+
+
+def _trim(active: Array, box: tuple[int, int, int, int]) -> tuple[int, int, int, int] | None:
+    top, left, bottom, right = box
+    rows = np.flatnonzero(active[top:bottom, left:right].any(1))
+    columns = np.flatnonzero(active[top:bottom, left:right].any(0))
+    if not len(rows):
+        return None
+    return (
+        top + int(rows[0]),
+        left + int(columns[0]),
+        top + int(rows[-1]) + 1,
+        left + int(columns[-1]) + 1,
+    )
+
+
+def _cost(height: Array | int, width: Array | int) -> Array | float:
+    """What looking at a tile costs, in blocks, its context included."""
+    around = 2 * CONTEXT / BLOCK
+    return (height + around) * (width + around) + _OVERHEAD
+
+
+def _best_cut(active: Array) -> tuple[float, int]:
+    """The cheapest row to cut a block mask at (the row below the cut), and the cost of both parts.
+
+    Parts larger than a tile may be count as if cut evenly later on.
+    """
+    rows, columns = active.shape
+    if rows < 2:
+        return float("inf"), 0
+    used = active.any(1)
+    first = np.where(used, active.argmax(1), columns)
+    last = np.where(used, columns - active[:, ::-1].argmax(1), 0)
+    row = np.arange(rows)
+
+    def upper(first: Array, last: Array, used: Array) -> Array:
+        # Width and height of the part that holds rows 0..k, without its empty rows.
+        wide = np.maximum.accumulate(last) - np.minimum.accumulate(first)
+        begin = used.argmax()
+        end = np.maximum.accumulate(np.where(used, row + 1, 0))
+        return np.where(end > 0, _cost(end - begin, wide), 0)
+
+    above = upper(first, last, used)[:-1]
+    below = upper(first[::-1], last[::-1], used[::-1])[::-1][1:]
+    total = above + below
+    # Of equal costs the most even cut wins.
+    even = np.abs(2 * np.arange(1, rows) - rows)
+    best = np.lexsort((even, np.round(total, 3)))[0]
+    return float(total[best]), int(best) + 1
+
+
+def look(
+    ink: Array,
+    infer: Callable[[Array], Array],
+    maps: list[Array | None],
+    tick: Callable[[float], None],
+) -> None:
+    """Run a network over all tiles of a page and add its answers to the maps.
+
+    Args:
+        ink: (H, W) float32.
+        infer: (h, w) float32 window -> (C, h, w) float32; any size.
+        maps: C arrays (H, W) float32, zero; None = not wanted.
+        tick: called with the fraction that is done; what it raises passes through.
+    """
+    height, width = ink.shape
+    tiles = plan(ink)
+    total = sum((t.bottom - t.top) * (t.right - t.left) for t in tiles)
+    done = 0
+    for tile in tiles:
+        tick(done / total)
+        rows, columns = tile.window(height, width)
+        seen = infer(np.ascontiguousarray(ink[rows, columns]))
+        down = _fade(tile.top, tile.bottom, rows, height)
+        across = _fade(tile.left, tile.right, columns, width)
+        weight = down[:, None] * across
+        for answer, target in zip(seen, maps, strict=True):
+            if target is not None:
+                target[rows, columns] += answer * weight
+        done += (tile.bottom - tile.top) * (tile.right - tile.left)
+    tick(1.0)
+
+
+def _fade(start: int, stop: int, window: slice, length: int) -> Array:
+    """Weights along one axis of a window: 1 inside start..stop, a ramp at borders in the page."""
+    center = np.arange(window.start, window.stop) + 0.5
+    weight = np.ones(len(center), np.float32)
+    if start > 0:
+        weight *= np.clip((center - start) / (2 * _FADE) + 0.5, 0, 1)
+    if stop < length:
+        weight *= np.clip((stop - center) / (2 * _FADE) + 0.5, 0, 1)
+    return weight.astype(np.float32)

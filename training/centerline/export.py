@@ -1,0 +1,85 @@
+"""Write the weights of a run as the ONNX file that the engine reads, and check it.
+
+python -m involute.training.centerline.export --checkpoint RUN/checkpoint.pt --out centerline.onnx
+"""
+
+from __future__ import annotations
+
+import argparse
+import warnings
+from pathlib import Path
+
+import numpy as np
+import torch
+from involute.engine.centerline.backends import load
+from involute.engine.centerline.network import STRIDE
+
+from .model import CenterlineNet, Exported
+
+TOLERANCE = 1e-3
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """The command line."""
+    parser = argparse.ArgumentParser(prog="export", description=__doc__.splitlines()[0])
+    parser.add_argument("--checkpoint", type=Path, required=True)
+    parser.add_argument("--out", type=Path, required=True)
+    options = parser.parse_args(arguments)
+    net = read_checkpoint(options.checkpoint)
+    export(net, options.out)
+    print(f"{options.out.name}: {options.out.stat().st_size / 1e6:.1f} MB")
+    print(f"OpenCV against torch: {worst_difference(net, options.out):.1e}")
+
+
+def read_checkpoint(path: Path) -> CenterlineNet:
+    """The running mean of a run's weights, ready for inference."""
+    state = torch.load(path, map_location="cpu")["mean"]
+    widths = tuple(
+        len(state[f"encode.{k}.0.0.weight"])
+        for k in range(len(state))
+        if f"encode.{k}.0.0.weight" in state
+    )
+    net = CenterlineNet(widths).eval()
+    net.load_state_dict(state)
+    return net
+
+
+def export(net: CenterlineNet, out: Path) -> None:
+    """Write the network with its final activation; normalisation is folded into the weights."""
+    part = out.with_suffix(".part")
+    with warnings.catch_warnings():
+        # The newer exporter needs another package and gains nothing for plain convolutions.
+        warnings.simplefilter("ignore")
+        torch.onnx.export(
+            Exported(net).eval(),
+            (torch.zeros(1, 1, 8 * STRIDE, 8 * STRIDE),),
+            str(part),
+            dynamo=False,
+            opset_version=17,
+            input_names=["ink"],
+            output_names=["maps"],
+            dynamic_axes={"ink": {2: "height", 3: "width"}, "maps": {2: "height", 3: "width"}},
+        )
+    part.replace(out)
+
+
+def worst_difference(net: CenterlineNet, weights: Path) -> float:
+    """The largest difference between OpenCV and torch over random lines.
+
+    Raises:
+        ValueError: it is more than TOLERANCE.
+    """
+    rng = np.random.default_rng(1)
+    ink = np.maximum(0, rng.normal(0, 0.02, (11 * STRIDE, 9 * STRIDE))).astype(np.float32)
+    ink[rng.integers(0, len(ink), 6)] = 1.0
+    seen = load(weights, "cpu")(ink)
+    with torch.inference_mode():
+        wanted = Exported(net).eval()(torch.from_numpy(ink[None, None]))[0].numpy()
+    worst = float(np.abs(seen - wanted).max())
+    if worst > TOLERANCE:
+        raise ValueError(f"OpenCV and torch differ by {worst:.1e}.")
+    return worst
+
+
+if __name__ == "__main__":
+    main()
