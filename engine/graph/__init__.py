@@ -35,7 +35,7 @@ def build_graph(maps: LineMaps, pen_width: float, settings: Settings) -> PlanarG
         return PlanarGraph.empty()
     graph = _pixel_graph(chains, ridge.crest(chains.rows, chains.columns))
     graph = prune(graph, 3.0)
-    return resolve(graph, maps.centerline.shape, 2.0)
+    return resolve(graph, ridge.value, 2.0)
 
 
 def _pixel_graph(chains: Chains, crest: np.ndarray) -> PlanarGraph:

@@ -14,12 +14,16 @@ from itertools import combinations
 
 import numpy as np
 
+from .halves import Halves
+from .sampling import sample
+
 Array = np.ndarray
 
 SAMPLES = 17  # points of a curve within the blob, exits included
 ALONE = 1.0  # cost of a half-branch that runs on into none
 NOISE = 0.2  # px; how far ridge points stray from a smooth line
 TURN, SWERVE = np.radians(40.0), np.radians(20.0)  # a bend, and a bend with a counter-bend
+INK = 0.35  # a curve must stay this bright, compared with the fainter of its two sides
 NEVER = 1e3
 
 
@@ -49,10 +53,12 @@ class Fits:
         y += self.offset[chosen, :1] * (1 - t) + self.offset[chosen, 1:] * t
         return self._world(chosen, x, y)
 
-    def distance(self, points: Array) -> Array:
-        """(K, N) px: how far points (K, N, 2) lie beside their curve, across the chord."""
-        x, y = self._local(points)
-        return np.abs(y - _value(self.coefficients, x))
+    def distance(self, chosen: Array, points: Array) -> Array:
+        """(len(chosen), N) px: how far points (len(chosen), N, 2) lie beside their curve."""
+        x, y = _local(points, self.origin[chosen], self.axis[chosen], self.scale[chosen])
+        coefficients = self.coefficients[chosen]
+        slope = _slope(coefficients, x) / self.scale[chosen, None]
+        return np.abs(y - _value(coefficients, x)) / np.hypot(1, slope)
 
     def _world(self, chosen: Array, x: Array, y: Array) -> Array:
         axis = self.axis[chosen, None, :]
@@ -60,21 +66,17 @@ class Fits:
         scale = self.scale[chosen, None, None]
         return self.origin[chosen, None, :] + x[..., None] * scale * axis + y[..., None] * normal
 
-    def _local(self, points: Array) -> tuple[Array, Array]:
-        offset = points - self.origin[:, None]
-        ax, ay = self.axis[:, None, 0], self.axis[:, None, 1]
-        x = (offset[..., 0] * ax + offset[..., 1] * ay) / self.scale[:, None]
-        return x, offset[..., 1] * ax - offset[..., 0] * ay
 
-
-def fit_pairs(points: Array, weights: Array, pairs: Array) -> Fits:
+def fit_pairs(half: Halves, pairs: Array, value: Array) -> Fits:
     """One cubic through both half-branches of each pair.
 
     Args:
-        points, weights: as in `clusters.Halves`.
+        half: the course of all half-branches.
         pairs: (K, 2) half-branches.
+        value: (H, W) the smoothed centerline map; a curve that leaves the ink is out.
     """
     a, b = pairs.T
+    points, weights = half.points, half.weights
     exit_a, exit_b = points[a, 0], points[b, 0]
     gap = np.hypot(*(exit_b - exit_a).T)
     # The longer the gap, the more of both sides is needed to bridge it.
@@ -88,8 +90,8 @@ def fit_pairs(points: Array, weights: Array, pairs: Array) -> Fits:
     length = np.hypot(*chord.T)
     axis = chord / np.maximum(length, 1e-9)[:, None]
     scale = np.maximum(length, 1.0)
-    frame = Fits((exit_a + exit_b) / 2, axis, scale, *(np.zeros(0),) * 4)
-    x, y = frame._local(both)
+    origin = (exit_a + exit_b) / 2
+    x, y = _local(both, origin, axis, scale)
     powers = x[..., None] ** np.arange(4)
     weighted = powers * weight[..., None]
     normal = np.einsum("kni,knj->kij", weighted, powers)
@@ -115,7 +117,10 @@ def fit_pairs(points: Array, weights: Array, pairs: Array) -> Fits:
     out_b = _direction(points[b], weights[b] * fade)
     backwards = ((out_a * axis).sum(1) > -0.4) | ((out_b * axis).sum(1) < 0.4)
     cost[backwards | (span[:, 1] < span[:, 0]) | ~np.isfinite(cost)] = NEVER
-    return Fits(frame.origin, axis, scale, coefficients, span, at_exit, np.minimum(cost, NEVER))
+    fits = Fits(origin, axis, scale, coefficients, span, at_exit, np.minimum(cost, NEVER))
+    dark = sample(value, fits.sampled(np.arange(len(pairs)))).min(1)
+    fits.cost[dark < INK * np.minimum(half.level[a], half.level[b])] = NEVER
+    return fits
 
 
 def extend(points: Array, weights: Array, reach: Array) -> tuple[Array, Array, Array]:
@@ -213,6 +218,28 @@ def _greedy(pairs: Array, cost: Array, ids: Array) -> Array:
             taken |= {a, b}
             picked.append(ids[i])
     return np.array(picked, np.int64)
+
+
+def pairs_within(group: Array) -> Array:
+    """All pairs (K, 2), a < b, of members of one group (N,); members of group -1 have none."""
+    member = np.flatnonzero(group >= 0)
+    member = member[np.argsort(group[member], kind="stable")]
+    size = np.unique(group[member], return_counts=True)[1]
+    begin = np.concatenate([[0], np.cumsum(size)[:-1]]).astype(np.int64)
+    found = [np.zeros((0, 2), np.int64)]
+    for k in np.unique(size):
+        a, b = np.triu_indices(k, 1)
+        rows = member[begin[size == k][:, None] + np.arange(k)]
+        found.append(np.stack([rows[:, a].ravel(), rows[:, b].ravel()], -1))
+    return np.concatenate(found)
+
+
+def _local(points: Array, origin: Array, axis: Array, scale: Array) -> tuple[Array, Array]:
+    """Points (K, N, 2) in the frames: x in units of the scale, y in px."""
+    offset = points - origin[:, None]
+    ax, ay = axis[:, None, 0], axis[:, None, 1]
+    x = (offset[..., 0] * ax + offset[..., 1] * ay) / scale[:, None]
+    return x, offset[..., 1] * ax - offset[..., 0] * ay
 
 
 def _value(coefficients: Array, x: Array) -> Array:

@@ -13,97 +13,40 @@ from __future__ import annotations
 import numpy as np
 
 from ..values import PlanarGraph
-from .clusters import Halves, connected, halves, reach_of, spoilt
-from .curves import ALONE, SAMPLES, best_pairing, extend, fit_pairs
-from .topology import join, lengths, select
+from .blobs import connected, find_blobs
+from .curves import SAMPLES, best_pairing, extend, fit_pairs, pairs_within
+from .halves import Halves, read_halves
+from .topology import join, select
 
 Array = np.ndarray
 
 MERGE = 2.0  # px; crossings nearer than this are one junction
 TOUCH = 0.6  # px; curves that come this near touch
-LINK = 4.0  # px; branchings linked by less than this are one blob
-SHARED = 36.0  # px; the longest piece that two lines crossing at a shallow angle may share
-ASIDE = 1.2  # px; how far beside a shared piece its two lines may run
+STRAY = 6.0  # px; a stem may miss the curve that it ends on by this much
 
 
-def resolve(graph: PlanarGraph, shape: tuple[int, int], pen: float) -> PlanarGraph:
+def resolve(graph: PlanarGraph, value: Array, pen: float) -> PlanarGraph:
     """Move the junctions of a skeleton's graph to where its lines meet.
 
     Args:
         graph: the skeleton, its points on the crest of the lines.
-        shape: (H, W) of the map.
+        value: (H, W) the smoothed centerline map.
         pen: width of the ridge, px.
     """
     if not (graph.degrees >= 3).any():
         return graph
-    dirty = spoilt(graph, shape, reach_of(pen))
-    half = halves(graph, dirty)
-    group, inner = _groups(graph, half)
-    return _rebuild(graph, half, group, inner)
+    half = read_halves(graph, value, pen)
+    group, inner = find_blobs(graph, half, value)
+    return _rebuild(graph, half, group, inner, value)
 
 
-def _groups(graph: PlanarGraph, half: Halves) -> tuple[Array, Array]:
-    """The blob (V,) of every vertex, and which branches (B,) lie inside a blob."""
-    count = len(graph.vertices)
-    long = lengths(graph)
-    a, b = graph.ends.T
-    fork = graph.degrees >= 3
-    both = fork[a] & fork[b] & (a != b)
-    linked = both & (long < LINK)
-    blob = connected(count, graph.ends[linked])
-    shared = np.flatnonzero(both & (blob[a] != blob[b]) & (long < SHARED))
-    accepted = shared[_runs_double(graph, half, blob, shared)]
-    blob = connected(count, np.concatenate([graph.ends[linked], graph.ends[accepted]]))
-    inner = (blob[a] == blob[b]) & ((long < 2 * LINK) & ~half.clean)
-    inner |= linked
-    inner[accepted] = True
-    return np.where(fork, blob, -1), inner
-
-
-def _runs_double(graph: PlanarGraph, half: Halves, blob: Array, shared: Array) -> Array:
-    """Which branches (K,) carry two lines at once: each of their ends forks, and both prongs of
-    the one fork run on smoothly in those of the other, along the branch itself."""
-    if len(shared) == 0:
-        return np.zeros(0, bool)
-    home = blob[graph.half_vertex]
-    order = np.argsort(home, kind="stable")
-    start = np.searchsorted(home[order], np.arange(len(graph.vertices) + 1))
-    left, right = blob[graph.ends[shared]].T
-    first, second, owner = [], [], []
-    for i, (e, here, there) in enumerate(zip(shared, left, right, strict=True)):
-        one = order[start[here] : start[here + 1]]
-        two = order[start[there] : start[there + 1]]
-        # A second way between the two blobs means that there is a gap between the lines.
-        if np.isin(one >> 1, two >> 1).sum() > 1 or max(len(one), len(two)) > 6:
-            continue
-        one, two = one[one >> 1 != e], two[two >> 1 != e]
-        first.append(np.repeat(one, len(two)))
-        second.append(np.tile(two, len(one)))
-        owner.append(np.full(len(one) * len(two), i))
-    if not first:
-        return np.zeros(len(shared), bool)
-    pairs = np.stack([np.concatenate(first), np.concatenate(second)], -1)
-    owner = np.concatenate(owner)
-    fits = fit_pairs(half.points, half.weights, pairs)
-    e = shared[owner]
-    begin, end = graph.offsets[e], graph.offsets[e + 1] - 1
-    inside = np.rint(begin[:, None] + (end - begin)[:, None] * np.linspace(0.1, 0.9, 9))
-    aside = fits.distance(graph.points[inside.astype(np.int64)].astype(np.float64)).max(1)
-    good = (fits.cost < ALONE) & (aside < ASIDE)
-    # Two good pairs that share no half-branch.
-    result = np.zeros(len(shared), bool)
-    for i in np.unique(owner[good]):
-        mine = pairs[good & (owner == i)]
-        apart = (mine[:, None, 0] != mine[None, :, 0]) & (mine[:, None, 1] != mine[None, :, 1])
-        result[i] = apart.any()
-    return result
-
-
-def _rebuild(graph: PlanarGraph, half: Halves, group: Array, inner: Array) -> PlanarGraph:
+def _rebuild(
+    graph: PlanarGraph, half: Halves, group: Array, inner: Array, value: Array
+) -> PlanarGraph:
     """Replace all blobs by curves; see the module's docstring."""
     h_group = np.where(np.repeat(inner, 2), -1, group[graph.half_vertex])
-    pairs = _pairs_within(h_group)
-    fits = fit_pairs(half.points, half.weights, pairs)
+    pairs = pairs_within(h_group)
+    fits = fit_pairs(half, pairs, value)
     chosen = np.flatnonzero(best_pairing(h_group, pairs, fits.cost))
     through = pairs[chosen]
     alone = h_group >= 0
@@ -137,26 +80,12 @@ def _rebuild(graph: PlanarGraph, half: Halves, group: Array, inner: Array) -> Pl
     return _assemble(graph, half, active, inner, through, stems, curves, stops, places)
 
 
-def _pairs_within(group: Array) -> Array:
-    """All pairs (K, 2), a < b, of half-branches of one group; group -1 has none."""
-    member = np.flatnonzero(group >= 0)
-    member = member[np.argsort(group[member], kind="stable")]
-    size = np.unique(group[member], return_counts=True)[1]
-    begin = np.concatenate([[0], np.cumsum(size)[:-1]]).astype(np.int64)
-    found = []
-    for k in np.unique(size):
-        a, b = np.triu_indices(k, 1)
-        rows = member[begin[size == k][:, None] + np.arange(k)]
-        found.append(np.stack([rows[:, a].ravel(), rows[:, b].ravel()], -1))
-    return np.concatenate(found) if found else np.zeros((0, 2), np.int64)
-
-
 def _meetings(curves: Array, blob: Array, is_stem: Array) -> Array:
     """Where the curves of each blob meet: (M, 5) rows of curve, curve, time, time, weight.
 
     A time runs from 0 at the curve's first sample to SAMPLES - 1 at its last.
     """
-    pairs = _pairs_within(blob)
+    pairs = pairs_within(blob)
     pairs = pairs[~is_stem[pairs].all(1)]
     found = [np.zeros((0, 5))]
     for some in np.array_split(pairs, len(pairs) // 512 + 1):
@@ -164,21 +93,23 @@ def _meetings(curves: Array, blob: Array, is_stem: Array) -> Array:
             found += [_crossings(curves, some)]
     crossings = np.concatenate(found)
     # Through-curves that only touch, and stems that end just short of a curve.
-    crossed = np.zeros(len(pairs), bool)
+    missed = np.zeros(0)
     if len(pairs):
         key = pairs[:, 0] * len(curves) + pairs[:, 1]
         crossed = np.isin(key, crossings[:, 0] * len(curves) + crossings[:, 1])
         apart = pairs[~crossed]
-        limit = np.where(is_stem[apart].any(1), 2 * TOUCH, TOUCH)
-        near = _touches(curves, apart, limit)
+        limit = np.where(is_stem[apart].any(1), STRAY, TOUCH)
+        near, gap = _touches(curves, apart, limit)
         has_hit = np.zeros(len(curves), bool)
         has_hit[crossings[:, :2].astype(np.int64)] = True
         stem = is_stem[near[:, 1].astype(np.int64)]
-        near = near[~(stem & has_hit[near[:, 1].astype(np.int64)])]
-        crossings = np.concatenate([crossings, near])
-    # Stems come after the through-curves, so a stem is always second; it ends on its first hit.
+        known = ~(stem & has_hit[near[:, 1].astype(np.int64)])
+        missed = np.concatenate([np.zeros(len(crossings)), gap[known]])
+        crossings = np.concatenate([crossings, near[known]])
+    # Stems come after the through-curves, so a stem is always second; it ends on its first hit,
+    # or else where it comes nearest.
     second = crossings[:, 1].astype(np.int64)
-    order = np.lexsort((crossings[:, 3], second))
+    order = np.lexsort((crossings[:, 3], missed, second))
     first = np.diff(second[order], prepend=-1) != 0
     return crossings[order[first | ~is_stem[second[order]]]]
 
@@ -199,18 +130,20 @@ def _crossings(curves: Array, pairs: Array) -> Array:
     return np.stack([*pairs[k].T, i + s[k, i, j], j + t[k, i, j], sine**2 + 1e-3], -1)
 
 
-def _touches(curves: Array, pairs: Array, limit: Array) -> Array:
-    """Nearest points of pairs of polylines that come within their limit; rows as above."""
-    found = [np.zeros((0, 5))]
+def _touches(curves: Array, pairs: Array, limit: Array) -> tuple[Array, Array]:
+    """Nearest points of pairs of polylines within their limit: rows as above, and how near."""
+    found, gaps = [np.zeros((0, 5))], [np.zeros(0)]
     for at in range(0, len(pairs), 512):
         some, near = pairs[at : at + 512], limit[at : at + 512]
         gap = curves[some[:, 0], :, None] - curves[some[:, 1], None, :]
         gap = np.hypot(gap[..., 0], gap[..., 1]).reshape(len(some), -1)
         best = gap.argmin(1)
-        k = np.flatnonzero(gap[np.arange(len(some)), best] < near)
+        least = gap[np.arange(len(some)), best]
+        k = np.flatnonzero(least < near)
         i, j = np.divmod(best[k], SAMPLES)
         found.append(np.stack([*some[k].T, i, j, np.full(len(k), 1e-3)], -1))
-    return np.concatenate(found)
+        gaps.append(least[k])
+    return np.concatenate(found), np.concatenate(gaps)
 
 
 def _meeting_points(base: Array, course: Array, blob: Array, middle: Array) -> Array:
@@ -240,7 +173,7 @@ def _stops(
     """Merge meetings to junctions: stops (S, 3) of curve, junction, time; places (J, 2)."""
     curve = meetings[:, :2].astype(np.int64)
     here = (_at(curves, curve[:, 0], meetings[:, 2]) + _at(curves, curve[:, 1], meetings[:, 3])) / 2
-    pairs = _pairs_within(blob[curve[:, 0]]) if len(meetings) else np.zeros((0, 2), np.int64)
+    pairs = pairs_within(blob[curve[:, 0]]) if len(meetings) else np.zeros((0, 2), np.int64)
     close = np.hypot(*(here[pairs[:, 0]] - here[pairs[:, 1]]).T) < MERGE
     label = connected(len(meetings), pairs[close])
     names, junction = np.unique(label, return_inverse=True)

@@ -8,6 +8,7 @@ import cv2
 import numpy as np
 
 from ..values import LineMaps, PlanarGraph, Scan
+from .sampling import sample
 
 Array = np.ndarray
 
@@ -28,17 +29,3 @@ def measure(graph: PlanarGraph, scan: Scan, maps: LineMaps) -> PlanarGraph:
     if scan.color is not None:
         colors = np.rint(sample(scan.color, graph.points)).astype(np.uint8)
     return replace(graph, widths=widths, strength=strength, colors=colors)
-
-
-def sample(image: Array, points: Array) -> Array:
-    """Bilinear values (N,) or (N, C) float32 of an image at points (N, 2) in px."""
-    maps = np.ascontiguousarray(points, np.float32).reshape(1, -1, 2) - np.float32(0.5)
-    # OpenCV's remap takes at most 32767 columns; fold the list.
-    rows = -(-maps.shape[1] // 16384)
-    padded = np.zeros((rows * 16384, 2), np.float32)
-    padded[: maps.shape[1]] = maps[0]
-    padded = padded.reshape(rows, 16384, 2)
-    values = cv2.remap(
-        np.ascontiguousarray(image), padded, None, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE
-    )
-    return values.reshape(rows * 16384, *image.shape[2:])[: maps.shape[1]]

@@ -1,4 +1,4 @@
-"""Which points of a line are spoilt by a neighbour, and which branchings are one blob.
+"""The course of every half-branch, read where no neighbour spoils it.
 
 The paper clusters triangles of the pixel graph and looks two pixel steps out of a cluster to see
 where its branches go. Two pixels say little about a direction, and the ridge of a line is bent
@@ -14,6 +14,7 @@ import numpy as np
 
 from ..values import PlanarGraph
 from .ridge import SIGMA
+from .sampling import sample
 
 Array = np.ndarray
 
@@ -27,16 +28,16 @@ class Halves:
     exit: (2B,) int32, the point of graph.points at which the clean part begins.
     points: (2B, WINDOW, 2) float64, px, and weights: (2B, WINDOW) float64: the course from there
         on; the weight is small where a neighbour spoils the ridge, 0 past the end of the branch.
-    clean: (B,) bool, whether the branch has a clean point at all.
+    level: (2B,) float64, mean brightness of the ridge along that course.
     """
 
     exit: Array
     points: Array
     weights: Array
-    clean: Array
+    level: Array
 
 
-def spoilt(graph: PlanarGraph, shape: tuple[int, int], reach: float) -> Array:
+def _spoilt(graph: PlanarGraph, shape: tuple[int, int], reach: float) -> Array:
     """(P,) bool: points nearer than `reach` px to a line that isn't their own course."""
     counts = np.diff(graph.offsets)
     # A number per point that jumps between branches: far apart = not the same piece of line.
@@ -59,11 +60,17 @@ def spoilt(graph: PlanarGraph, shape: tuple[int, int], reach: float) -> Array:
     return found
 
 
-def halves(graph: PlanarGraph, dirty: Array) -> Halves:
-    """Where every half-branch leaves its blob, and its course from there on."""
+def read_halves(graph: PlanarGraph, value: Array, pen: float) -> Halves:
+    """Where every half-branch leaves its blob, and its course from there on.
+
+    Args:
+        graph: the skeleton's graph, its points on the crest of the lines.
+        value: (H, W) the smoothed centerline map.
+        pen: width of the ridge, px.
+    """
+    dirty = _spoilt(graph, value.shape, 3.5 * SIGMA * max(1.0, pen / 2))
     starts, stops = graph.offsets[:-1].astype(np.int64), graph.offsets[1:].astype(np.int64) - 1
     index = np.arange(len(graph.points))
-    branch = np.repeat(np.arange(graph.branch_count), np.diff(graph.offsets))
     usable = np.where(dirty, len(index), index)
     first = np.minimum.reduceat(usable, starts)
     last = np.maximum.reduceat(np.where(dirty, -1, index), starts)
@@ -79,24 +86,7 @@ def halves(graph: PlanarGraph, dirty: Array) -> Halves:
     inside = (place >= np.repeat(starts, 2)[:, None]) & (place <= np.repeat(stops, 2)[:, None])
     place = np.clip(place, 0, len(index) - 1)
     weights = np.where(dirty[place], 0.05, 1.0) * inside
-    del branch
-    return Halves(leave.astype(np.int32), graph.points[place].astype(np.float64), weights, clean)
-
-
-def reach_of(pen: float) -> float:
-    """How near a second line bends the ridge of a first one noticeably, in px."""
-    return 3.5 * SIGMA * max(1.0, pen / 2)
-
-
-def connected(count: int, links: Array) -> Array:
-    """(count,) int32: the smallest number that each number is linked to by (K, 2) links."""
-    label = np.arange(count, dtype=np.int32)
-    while len(links):
-        low = np.minimum(label[links[:, 0]], label[links[:, 1]])
-        before = label.copy()
-        np.minimum.at(label, links[:, 0], low)
-        np.minimum.at(label, links[:, 1], low)
-        label = label[label]
-        if np.array_equal(label, before):
-            break
-    return label
+    points = graph.points[place].astype(np.float64)
+    total = np.maximum(weights.sum(1), 1e-9)
+    level = (sample(value, points) * weights).sum(1) / total
+    return Halves(leave.astype(np.int32), points, weights, level)

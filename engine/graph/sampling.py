@@ -1,0 +1,31 @@
+"""Values of an image between its pixels."""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+
+Array = np.ndarray
+
+_COLUMNS = 16384  # remap takes at most 32767 columns, so long lists are folded
+
+
+def sample(image: Array, points: Array) -> Array:
+    """Bilinear values of an image (H, W) or (H, W, C) at points (..., 2) in px, float32 or uint8.
+
+    Beyond the border the image goes on as its outermost pixels.
+    """
+    shape = points.shape[:-1]
+    flat = points.reshape(-1, 2).astype(np.float32) - np.float32(0.5)
+    count = len(flat)
+    rows = max(1, -(-count // _COLUMNS))
+    padded = np.zeros((rows * _COLUMNS, 2), np.float32) if rows > 1 else flat
+    padded[:count] = flat
+    values = cv2.remap(
+        np.ascontiguousarray(image),
+        padded.reshape(rows, -1, 2),
+        None,
+        cv2.INTER_LINEAR,
+        borderMode=cv2.BORDER_REPLICATE,
+    )
+    return values.reshape(-1, *image.shape[2:])[:count].reshape(*shape, *image.shape[2:])
