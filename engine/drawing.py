@@ -16,7 +16,7 @@ import numpy as np
 from .errors import InvoluteError
 from .routing import checked_pairs, route
 from .settings import Settings
-from .strokes import build, walk
+from .strokes import Page, build, walk
 from .values import Junction, Pair, PlanarGraph, Routing, Scan, Stroke
 
 Array = np.ndarray
@@ -65,18 +65,20 @@ class Drawing:
             points=graph.points * scale,
             widths=widths * scale,
         )
-        return cls(
+        page = Page.of(graph, settings)
+        drawing = cls(
             graph=graph,
             routing=routing,
-            strokes=tuple(build(graph, walk(routing.partner), settings)),
+            strokes=tuple(build(page, walk(routing.partner))),
             fills=tuple(tuple(ring * scale for ring in fill) for fill in fills),
             size=scan.size,
             settings=settings,
         )
+        return drawing._with_page(page)
 
     def with_seconds(self, seconds: Mapping[str, float]) -> Drawing:
         """The same drawing with the time that each stage took."""
-        return replace(self, seconds=dict(seconds))
+        return replace(self, seconds=dict(seconds))._with_page(self._page)
 
     @cached_property
     def junctions(self) -> tuple[Junction, ...]:
@@ -136,7 +138,8 @@ class Drawing:
         """Route the junctions that are not locked anew, given those that are."""
         fixed = {j.index: j.pairs for j in self.junctions if j.locked}
         routing = route(self.graph, self.settings, fixed)
-        return replace(self._with_partner(routing.partner), routing=routing)
+        changed = replace(self._with_partner(routing.partner), routing=routing)
+        return changed._with_page(self._page)
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write the drawing; the suffix says how (.json keeps everything)."""
@@ -151,13 +154,23 @@ class Drawing:
 
         return load(path)
 
+    @cached_property
+    def _page(self) -> Page:
+        return Page.of(self.graph, self.settings)
+
+    def _with_page(self, page: Page) -> Drawing:
+        """Hand on what all strokes share, so that a reroute needn't work it out again."""
+        vars(self)["_page"] = page
+        return self
+
     def _with_locked(self, junctions: Iterable[int], value: bool) -> Drawing:
         locked = self.routing.locked.copy()
         for junction in junctions:
             if not 0 <= junction < len(locked):
                 raise InvoluteError(f"There is no junction {junction}; there are {len(locked)}.")
             locked[junction] = value
-        return replace(self, routing=replace(self.routing, locked=locked))
+        changed = replace(self, routing=replace(self.routing, locked=locked))
+        return changed._with_page(self._page)
 
     def _with_partner(self, partner: Array) -> Drawing:
         """Walk anew what the changed half-branches belong to; keep all other strokes."""
@@ -167,7 +180,7 @@ class Drawing:
         branches = changed.union(*((s.branches >> 1).tolist() for s in again))
         gone = {id(s) for s in again}
         kept = [s for s in self.strokes if id(s) not in gone]
-        made = build(self.graph, walk(partner, branches), self.settings)
+        made = build(self._page, walk(partner, branches))
         strokes = sorted([*kept, *made], key=lambda s: int(s.branches.min()) >> 1)
         routing = replace(self.routing, partner=np.asarray(partner, np.int32))
-        return replace(self, strokes=tuple(strokes), routing=routing)
+        return replace(self, strokes=tuple(strokes), routing=routing)._with_page(self._page)

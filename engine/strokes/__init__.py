@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from .build import build
-from .walk import Walk, lowest_branch, walk
+from .page import Page
+from .walk import Walk, walk
 
-__all__ = ["Walk", "build", "lowest_branch", "walk"]
+__all__ = ["Page", "Walk", "build", "walk"]

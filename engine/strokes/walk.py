@@ -53,12 +53,11 @@ def walk(partner: Array, branches: Iterable[int] | None = None) -> list[Walk]:
         for half in halves:
             done[half >> 1] = 1
         strokes.append(Walk(tuple(halves), closed))
-    return strokes if branches is None else sorted(strokes, key=lowest_branch)
-
-
-def lowest_branch(stroke: Walk) -> int:
-    """What strokes are sorted by."""
-    return min(half >> 1 for half in stroke.halves)
+    return (
+        strokes
+        if branches is None
+        else sorted(strokes, key=lambda stroke: min(h >> 1 for h in stroke.halves))
+    )
 
 
 def _follow(mate: list[int], half: int) -> tuple[list[int], bool]:

@@ -1,0 +1,109 @@
+"""The few inks of a page: every stroke takes the exact colour of one of them.
+
+A pixel of a thin line is ink mixed with paper. Its optical density (-log of the reflectance) is a
+multiple of the ink's own, so that inks differ in the direction of their density, not in its size.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..values import PlanarGraph
+
+Array = np.ndarray
+
+_NEUTRAL = 0.3  # how far a density may be from grey, relative to its size, and still be black ink
+_BLACK = 110.0  # grey value below which a neutral ink is simply black
+_HUES = 36  # bins round the colour circle
+_SMALLEST = 8.0  # pen widths of line that an ink of its own must have
+
+
+@dataclass(frozen=True, eq=False)
+class Inks:
+    """palette: sRGB of each ink; ink: (B,) which one a branch is drawn in."""
+
+    palette: tuple[tuple[int, int, int], ...]
+    ink: Array
+
+    @classmethod
+    def black(cls, branches: int) -> Inks:
+        """One black ink for everything."""
+        return cls(((0, 0, 0),), np.zeros(branches, np.int64))
+
+    @classmethod
+    def of(cls, graph: PlanarGraph, length: Array, pen: float) -> Inks:
+        """Find the inks of a page.
+
+        Args:
+            length: (B,) px of each branch; pen: px.
+        """
+        if graph.colors is None or graph.branch_count == 0:
+            return cls.black(graph.branch_count)
+        color = _branch_colors(graph)
+        density = -np.log((color + 8.0) / 263.0)
+        size = density.mean(1)
+        tint = density / np.maximum(size, 0.05)[:, None] - 1.0
+        # Two axes across the grey axis.
+        across = tint @ np.array([[2.0, -1.0, -1.0], [0.0, 3.0**0.5, -(3.0**0.5)]]).T / 6.0**0.5
+        chroma, hue = np.hypot(*across.T), np.arctan2(across[:, 1], across[:, 0])
+        weight = length + 1e-6
+        peaks = _hue_peaks(hue, np.where(chroma > _NEUTRAL, weight, 0.0), _SMALLEST * pen)
+
+        ink = np.zeros(graph.branch_count, np.int64)
+        if len(peaks):
+            apart = np.abs((hue[:, None] - peaks + np.pi) % (2 * np.pi) - np.pi)
+            ink = np.where(chroma > _NEUTRAL, apart.argmin(1) + 1, 0)
+        palette = [_neutral(color[ink == 0], weight[ink == 0])]
+        palette += [_typical(color[ink == k], weight[ink == k]) for k in range(1, len(peaks) + 1)]
+        return cls(tuple(palette), ink)
+
+    def color_of(self, branches: Array, length: Array) -> tuple[int, int, int]:
+        """The ink in which most of a stroke is drawn; `length` of each of the branches."""
+        total = np.bincount(self.ink[branches], length, minlength=len(self.palette))
+        return self.palette[int(total.argmax())]
+
+
+def _branch_colors(graph: PlanarGraph) -> Array:
+    """The mean colour of each branch where its ink is strongest: (B, 3) float."""
+    strength = np.ones(len(graph.points)) if graph.strength is None else graph.strength
+    weight = np.asarray(strength, np.float64) ** 4 + 1e-6
+    start = graph.offsets[:-1]
+    total = np.add.reduceat(graph.colors * weight[:, None], start, axis=0)
+    return total / np.add.reduceat(weight, start)[:, None]
+
+
+def _hue_peaks(hue: Array, weight: Array, smallest: float) -> Array:
+    """The hues round which coloured lines gather, in radians."""
+    share = np.bincount(
+        ((hue + np.pi) / (2 * np.pi) * _HUES).astype(int) % _HUES, weight, minlength=_HUES
+    )
+    near = share + np.roll(share, 1) + np.roll(share, -1)
+    # Two bins of one ink can't both be the highest of their neighbourhood of five.
+    around = np.max([np.roll(near + 1e-9 * share, k) for k in (-3, -2, -1, 1, 2, 3)], axis=0)
+    top = (near + 1e-9 * share > around) & (near >= smallest)
+    return (np.flatnonzero(top) + 0.5) / _HUES * 2 * np.pi - np.pi
+
+
+def _typical(color: Array, weight: Array) -> tuple[int, int, int]:
+    """The weighted median of the darker half: where the pen touched the paper fully."""
+    if not len(color):
+        return (0, 0, 0)
+    grey = color.mean(1)
+    order = np.argsort(grey, kind="stable")
+    reach = np.cumsum(weight[order])
+    dark = order[: np.searchsorted(reach, reach[-1] / 2) + 1]
+    return tuple(round(_weighted_median(color[dark, c], weight[dark])) for c in range(3))
+
+
+def _neutral(color: Array, weight: Array) -> tuple[int, int, int]:
+    """Black, or the grey of a pencil."""
+    grey = round(float(np.mean(_typical(color, weight))))
+    return (0, 0, 0) if grey < _BLACK else (grey, grey, grey)
+
+
+def _weighted_median(values: Array, weight: Array) -> float:
+    order = np.argsort(values, kind="stable")
+    reach = np.cumsum(weight[order])
+    return float(values[order[np.searchsorted(reach, reach[-1] / 2)]])
