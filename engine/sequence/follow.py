@@ -1,7 +1,8 @@
 """Order, direction and colour of strokes, taken over from the frame before.
 
-Blender pairs the strokes of two keyframes by their number when it interpolates, and from start to
-end; so a line keeps its number, its direction and its ink for as long as it can be followed.
+Blender pairs the strokes of two keyframes by their number in the layer when it interpolates, and
+from start to end; so a line keeps its number among the lines of its ink, and its direction, for as
+long as it can be followed.
 """
 
 from __future__ import annotations
@@ -35,8 +36,10 @@ class Follower:
     def __call__(self, drawing: Drawing) -> Drawing:
         """The same drawing; strokes reordered, reversed, recoloured, none changed in shape."""
         strokes = _with_known_inks(drawing.strokes, self.inks)
-        if self.strokes and strokes:
+        if strokes:
             strokes = follow(self.strokes, strokes)
+            # Ink by ink, as they lie in layers.
+            strokes = tuple(sorted(strokes, key=lambda s: self.inks.index(s.color)))
         self.strokes = strokes or self.strokes
         return replace(drawing, strokes=strokes)
 
@@ -44,9 +47,10 @@ class Follower:
 def follow(old: Sequence[Stroke], new: Sequence[Stroke]) -> tuple[Stroke, ...]:
     """The new strokes in the order and direction of the old ones that they match.
 
-    A stroke that vanished leaves its number to a newcomer of the same ink, the nearest one, so that
-    the numbers after it stay; newcomers left over come last. A newcomer runs the way that the old
-    lines around it run.
+    A stroke that vanished leaves its number to a newcomer of the same ink, the nearest one, else to
+    one of the last strokes, so that all others keep theirs. What has no number to keep comes last,
+    the longest first: specks come and go, and should not push the lines about. A newcomer runs the
+    way that the old lines around it run.
     """
     matches = match_strokes(old, new)
     strokes = list(new)
@@ -59,7 +63,7 @@ def follow(old: Sequence[Stroke], new: Sequence[Stroke]) -> tuple[Stroke, ...]:
     newcomers = np.setdiff1d(np.arange(len(new)), matches.new)
     for k in newcomers[_against_the_grain(old, new, newcomers, matches)]:
         strokes[k] = reverse(strokes[k])
-    return tuple(strokes[k] for k in np.argsort(_slots(old, new, matches), kind="stable"))
+    return tuple(strokes[k] for k in np.argsort(_numbers(old, new, matches), kind="stable"))
 
 
 def reverse(stroke: Stroke) -> Stroke:
@@ -95,28 +99,41 @@ def _reordered(stroke: Stroke, index: Array) -> Stroke:
     )
 
 
-def _slots(old: Sequence[Stroke], new: Sequence[Stroke], matches: Matches) -> Array:
-    """The number that each new stroke takes over; those beyond the old ones follow after them."""
-    slots = np.full(len(new), len(old) + len(new))
-    slots[matches.new] = matches.old
-    free = np.setdiff1d(np.arange(len(old)), matches.old)
-    waiting = np.setdiff1d(np.arange(len(new)), matches.new)
-    if len(free) and len(waiting):
-        there, here = ([s.points.mean(axis=0) for s in frame] for frame in (old, new))
-        for k in waiting:
-            same_ink = [f for f in free if old[f].color == new[k].color]
-            if same_ink:
-                slots[k] = min(same_ink, key=lambda f: np.hypot(*(there[f] - here[k])))
-                free = free[free != slots[k]]
-    return slots
+def _numbers(old: Sequence[Stroke], new: Sequence[Stroke], matches: Matches) -> Array:
+    """The number that each new stroke gets among those of its ink, (N,)."""
+    numbers = np.full(len(new), -1)
+    mates = dict(zip(matches.new.tolist(), matches.old.tolist(), strict=True))
+    for ink in {s.color for s in new}:
+        before = [k for k, s in enumerate(old) if s.color == ink]
+        number_of = {k: number for number, k in enumerate(before)}
+        here = [k for k, s in enumerate(new) if s.color == ink]
+        for k in here:
+            number = number_of.get(mates.get(k, -1), len(here))
+            numbers[k] = number if number < len(here) else -1
+        waiting = sorted((k for k in here if numbers[k] < 0), key=lambda k: -_length(new[k]))
+        free = sorted(set(range(len(here))) - {int(numbers[k]) for k in here})
+        inherited = np.array([n for n in free if n < len(before)], int)
+        there = np.array([old[before[n]].points.mean(axis=0) for n in inherited]).reshape(-1, 2)
+        for k in [k for k in waiting if k not in mates][: len(inherited)]:
+            nearest = int(np.hypot(*(there - new[k].points.mean(axis=0)).T).argmin())
+            numbers[k] = inherited[nearest]
+            inherited, there = (np.delete(a, nearest, axis=0) for a in (inherited, there))
+        free = sorted(set(free) - {int(numbers[k]) for k in here})
+        waiting = [k for k in waiting if numbers[k] < 0]
+        numbers[waiting] = free
+    return numbers
+
+
+def _length(stroke: Stroke) -> float:
+    return float(np.hypot(*np.diff(stroke.points, axis=0).T).sum())
 
 
 def _against_the_grain(
     old: Sequence[Stroke], new: Sequence[Stroke], newcomers: Array, matches: Matches
 ) -> Array:
     """(n,) bool: newcomers that run against the old lines nearest to them."""
-    if len(newcomers) == 0:
-        return np.zeros(0, bool)
+    if len(newcomers) == 0 or not old:
+        return np.zeros(len(newcomers), bool)
     before = sample_strokes(old)
     before = cv2.transform(before, matches.motion).reshape(before.shape)
     after = sample_strokes([new[k] for k in newcomers])
