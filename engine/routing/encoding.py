@@ -103,30 +103,41 @@ class _Shapes:
 
     @staticmethod
     def of(graph: PlanarGraph) -> _Shapes:
-        points = graph.points[:, 0].astype(np.float64) + 1j * graph.points[:, 1]
-        first, last = graph.offsets[:-1], graph.offsets[1:] - 1
-        step = np.abs(np.diff(points, prepend=points[:1]))
-        step[first] = 1.0  # a gap between branches, so that the arc length grows for ever
-        arc = np.cumsum(step)
-        length = np.repeat(arc[last] - arc[first], 2)
-        origin = np.stack([arc[first], arc[last]], 1).reshape(-1)
-        sign = np.tile([1.0, -1.0], graph.branch_count)
-        vertex = np.stack([points[first], points[last]], 1).reshape(-1)
-
-        def at(reach: Array) -> Array:
-            where = origin[:, None] + sign[:, None] * np.minimum(reach, length[:, None])
-            found = np.interp(where, arc, points.real) + 1j * np.interp(where, arc, points.imag)
-            return found - vertex[:, None]
+        samples, length = along(graph, REACH)
 
         def line(windows: Array) -> tuple[Array, Array]:
-            low = at(np.minimum(windows[:, 0], 0.3 * length[:, None]))
-            heading = _unit(at(np.broadcast_to(windows[:, 1], low.shape)) - low)
+            low = along(graph, np.minimum(windows[:, 0], 0.3 * length[:, None]))[0]
+            heading = _unit(along(graph, windows[:, 1])[0] - low)
             return heading, (np.conj(heading) * low).imag
 
         heading, offset = line(WINDOWS)
         frame = line(FRAME)[0][:, 0]
-        tip = vertex.reshape(-1, 2)[:, ::-1].reshape(-1) - vertex
-        return _Shapes(at(REACH) / REACH, frame, heading, offset, length, tip)
+        tip = along(graph, np.array([np.inf]))[0][:, 0]
+        return _Shapes(samples / REACH, frame, heading, offset, length, tip)
+
+
+def along(graph: PlanarGraph, reach: Array) -> tuple[Array, Array]:
+    """Where each half-branch is after some arc length, seen from the vertex that it starts at.
+
+    Args:
+        reach: (S,), or (2B, S) for lengths of each half-branch's own, px; beyond the end of the
+            branch it is the end.
+
+    Returns:
+        (2B, S) complex x + iy, and the (2B,) length of the branch, px.
+    """
+    points = graph.points[:, 0].astype(np.float64) + 1j * graph.points[:, 1]
+    first, last = graph.offsets[:-1], graph.offsets[1:] - 1
+    step = np.abs(np.diff(points, prepend=points[:1]))
+    step[first] = 1.0  # a gap between branches, so that the arc length grows for ever
+    arc = np.cumsum(step)
+    length = np.repeat(arc[last] - arc[first], 2)
+    origin = np.stack([arc[first], arc[last]], 1).reshape(-1)
+    sign = np.tile([1.0, -1.0], graph.branch_count)
+    vertex = np.stack([points[first], points[last]], 1).reshape(-1)
+    where = origin[:, None] + sign[:, None] * np.minimum(reach, length[:, None])
+    found = np.interp(where, arc, points.real) + 1j * np.interp(where, arc, points.imag)
+    return found - vertex[:, None], length
 
 
 def _unit(z: Array) -> Array:

@@ -21,16 +21,24 @@ Array = np.ndarray
 
 @dataclass(frozen=True, eq=False)
 class Page:
-    """A graph, its true involution (2B,), and the pen stroke that each point belongs to (P,)."""
+    """A graph, its true involution (2B,), and the pen stroke that each point belongs to (P,).
+
+    allowed: for a traced page, which must not be contracted, all (K, 2) pairs that some pen ran
+        through. Two of them contradict each other where the tracer made one branch of two
+        strokes; then each is as right as the other, and `partner` has only one of them.
+    """
 
     graph: PlanarGraph
     partner: Array
     stroke: Array
+    allowed: Array | None = None
 
 
 def augmented(rng: np.random.Generator, page: Page) -> Page:
     """A random variation of a page, from untouched but turned to roughly traced."""
     page = replace(page, graph=_bent(rng, page.graph))
+    if page.allowed is not None:
+        return page if rng.random() < 0.5 else replace(page, graph=_inked(rng, page))
     if rng.random() < 0.5:
         page = contracted(page, rng.uniform(0.5, 4.5))
     if rng.random() < 0.6 and page.graph.branch_count:
@@ -156,7 +164,7 @@ def _inked(rng: np.random.Generator, page: Page) -> PlanarGraph:
     """Widths, darkness and colours of random pens, each page with all, some or none of them."""
     graph, stroke = page.graph, page.stroke.astype(int)
     if not len(stroke) or rng.random() < 0.4:
-        return graph
+        return replace(graph, widths=None, strength=None, colors=None)
     count = stroke.max() + 1
     branch = np.repeat(np.arange(graph.branch_count), np.diff(graph.offsets))
     noise = rng.normal(0, 1, graph.branch_count)[branch]

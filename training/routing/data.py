@@ -13,12 +13,16 @@ from .planar import graph_from_strokes
 
 Array = np.ndarray
 
+_STOCK = 2000  # pages kept
+_RENEW = 0.2  # how often a visit brings a new page
+
 
 @dataclass(frozen=True, eq=False)
 class Batch:
     """Junctions of several pages: the arrays of `Encoding`, the truth, and which were fixed.
 
-    truth: (J, D, D) float32 symmetric 0/1; asked: (J,) float32, 0 where the truth was given away.
+    truth: (J, D, D) float32 symmetric 0/1, see `Page.allowed`; asked: (J,) float32, 0 where the
+    truth was given away; page: (J,) int64, which page of the batch a junction is on.
     """
 
     tokens: Array
@@ -27,6 +31,7 @@ class Batch:
     mask: Array
     truth: Array
     asked: Array
+    page: Array
 
 
 def true_page(strokes: list[Array]) -> Page:
@@ -39,11 +44,17 @@ def true_page(strokes: list[Array]) -> Page:
 def truth_of(page: Page, encoding: Encoding) -> Array:
     """(J, D, D) float32, 1 where the pen ran from one half-branch into the other."""
     halves = encoding.halves
-    if not halves.size:
-        return np.zeros((*halves.shape, halves.shape[1]), np.float32)
-    other = np.where(halves >= 0, page.partner[halves], -2)
-    same = (other[:, :, None] == halves[:, None, :]) & (other != halves)[:, :, None]
-    return same.astype(np.float32)
+    truth = np.zeros((*halves.shape, halves.shape[1]), np.float32)
+    pairs = page.allowed
+    if pairs is None:
+        own = np.arange(len(page.partner))
+        pairs = np.stack([own, page.partner], 1)[page.partner > own]
+    slot = np.full(len(page.partner), -1)
+    slot[halves[halves >= 0]] = np.flatnonzero(halves >= 0)
+    a, b = slot[pairs[(slot[pairs] >= 0).all(1)]].T
+    row, a, b = a // halves.shape[1], a % halves.shape[1], b % halves.shape[1]
+    truth[row, a, b] = truth[row, b, a] = 1
+    return truth
 
 
 class Bank:
@@ -53,22 +64,28 @@ class Bank:
     as much as a new page.
     """
 
-    def __init__(self, library: Library, seed: int, size: int = 2000, renew: float = 0.2) -> None:
-        self.library, self.size, self.renew = library, size, renew
+    def __init__(
+        self, library: Library, seed: int, traced: list[Page] | None = None, share: float = 0.0
+    ) -> None:
+        self.library, self.traced = library, traced or []
+        self.share = share if self.traced else 0.0
         self.rng = np.random.default_rng(seed)
         self.pages: list[Page] = []
 
     def page(self) -> Page:
-        if len(self.pages) < self.size or self.rng.random() < self.renew:
-            page = true_page(loosened(self.rng, self.library.page(self.rng)))
-            if not len(page.graph.junctions):
-                return self.page()
-            if len(self.pages) < self.size:
-                self.pages.append(page)
-            else:
-                self.pages[int(self.rng.integers(self.size))] = page
-            return page
-        return self.pages[int(self.rng.integers(len(self.pages)))]
+        """A traced page with probability `share`, else one of the stock or a new one."""
+        if self.rng.random() < self.share:
+            return self.traced[int(self.rng.integers(len(self.traced)))]
+        if len(self.pages) == _STOCK and self.rng.random() > _RENEW:
+            return self.pages[int(self.rng.integers(_STOCK))]
+        page = true_page(loosened(self.rng, self.library.page(self.rng)))
+        if not len(page.graph.junctions):
+            return self.page()
+        if len(self.pages) < _STOCK:
+            self.pages.append(page)
+        else:
+            self.pages[int(self.rng.integers(_STOCK))] = page
+        return page
 
     def batch(self, junctions: int, slots: int) -> Batch:
         """A batch of about so many junctions; half of the pages with some of them fixed."""
@@ -86,7 +103,8 @@ class Bank:
 def encoded(page: Page, fixed: dict, slots: int) -> Batch:
     """One page as a batch."""
     encoding = encode(page.graph, fixed, slots)
-    known = page.graph.junctions[sorted(fixed)]
+    known = np.zeros(len(page.graph.vertices), bool)
+    known[page.graph.junctions[sorted(fixed)]] = True
     vertex = page.graph.half_vertex[encoding.halves[:, 0]]
     return Batch(
         encoding.tokens,
@@ -94,7 +112,8 @@ def encoded(page: Page, fixed: dict, slots: int) -> Batch:
         encoding.sibling.reshape(-1),
         encoding.mask,
         truth_of(page, encoding),
-        1.0 - np.isin(vertex, known).astype(np.float32),
+        1.0 - known[vertex].astype(np.float32),
+        np.zeros(len(vertex), np.int64),
     )
 
 
@@ -108,4 +127,5 @@ def joined(parts: list[Batch]) -> Batch:
         start += part.mask.size
     names = ("tokens", "pairs", "mask", "truth", "asked")
     arrays = {name: np.concatenate([getattr(part, name) for part in parts]) for name in names}
-    return Batch(sibling=np.concatenate(siblings), **arrays)
+    page = np.repeat(np.arange(len(parts)), [len(part.mask) for part in parts])
+    return Batch(sibling=np.concatenate(siblings), page=page, **arrays)

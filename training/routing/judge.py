@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -26,6 +27,11 @@ class Verdict:
     probability: Array
     rank: Array
     loss: Array
+
+    @staticmethod
+    def joined(parts: Sequence[Verdict]) -> Verdict:
+        names = Verdict.__dataclass_fields__
+        return Verdict(**{n: np.concatenate([getattr(p, n) for p in parts]) for n in names})
 
     @property
     def correct(self) -> Array:

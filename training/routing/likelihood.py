@@ -16,17 +16,24 @@ _BLOCKED = -1e4
 
 
 def exact(scores: Tensor, mask: Tensor, truth: Tensor) -> Tensor:
-    """(J,) negative log-likelihood of the truth, a (J, D, D) symmetric 0/1 matrix of pairs."""
+    """(J,) negative log-likelihood of the truth, a (J, D, D) symmetric 0/1 matrix of pairs.
+
+    Where pairs of the truth contradict each other, every involution that keeps as many of them as
+    can be counts as right.
+    """
     degrees = mask.sum(1).long()
     loss = scores.new_zeros(len(scores))
-    right = (scores * truth).sum((1, 2)) / 2
     for degree in range(3, scores.shape[1] + 1):
         rows = torch.nonzero(degrees == degree)[:, 0]
         if len(rows):
             a, b = np.triu_indices(degree, 1)
             ways = torch.from_numpy(pair_matrix(degree)).to(scores.device)
-            total = torch.logsumexp(scores[rows][:, a, b] @ ways.T, dim=1)
-            loss = loss.index_add(0, rows, total - right[rows])
+            total = scores[rows][:, a, b] @ ways.T
+            real = truth[rows][:, a, b]
+            kept = real @ ways.T - (1 - real) @ ways.T * degree
+            right = kept == kept.amax(1, keepdim=True)
+            best = torch.logsumexp(total.masked_fill(~right, _BLOCKED), dim=1)
+            loss = loss.index_add(0, rows, torch.logsumexp(total, dim=1) - best)
     return loss
 
 

@@ -3,9 +3,10 @@
 As in "Stroke Vectorization via Involution Prediction" (routing network) every half-branch is a
 token, four pre-norm layers let tokens look at each other, and a head gives a symmetric score for
 each pair that shares a junction. Two things differ. A token attends to the half-branches of its
-own junction and hears from the other end of its own branch, so that n layers see n branches far
-and the cost grows linearly with the drawing. And each pair has features of its own (one
-half-branch seen in the frame of the other), which steer the attention and feed the head.
+own junction, hears from the other end of its own branch and gets the mean token of its page, so
+that n layers see n branches far, and how the artist draws, at a cost that grows linearly with the
+drawing. And each pair has features of its own (one half-branch seen in the frame of the other),
+which steer the attention and feed the head.
 """
 
 from __future__ import annotations
@@ -40,13 +41,21 @@ class RoutingNet(nn.Module):
         self.head_product = nn.Linear(width, width, bias=False)
         self.score = nn.Linear(width, 1)
 
-    def forward(self, tokens: Tensor, pairs: Tensor, sibling: Tensor, mask: Tensor) -> Tensor:
+    def forward(
+        self,
+        tokens: Tensor,
+        pairs: Tensor,
+        sibling: Tensor,
+        mask: Tensor,
+        page: Tensor | None = None,
+    ) -> Tensor:
         """Score all pairs of a drawing.
 
         Args:
             tokens: (J, D, TOKEN_SIZE); pairs: (J, D, D, PAIR_SIZE).
             sibling: (J * D,) flat slot of the other end of the branch; J * D = none.
             mask: (J, D), 1 where a slot is filled.
+            page: (J,) the page that each junction is on; None = all are on one page.
 
         Returns:
             (J, D, D) symmetric scores; those of empty slots mean nothing.
@@ -59,10 +68,22 @@ class RoutingNet(nn.Module):
         blocked = (1.0 - mask)[:, None, None, :] * _BLOCKED
         for layer in self.layers:
             x = layer(x, e, blocked, sibling, self.alone)
+            x = x + layer.overview(_page_mean(x, mask, page))
         x = self.last(x)
         a, b = x.unsqueeze(2), x.unsqueeze(1)
         z = self.head_pair(e) + self.head_sum(a + b) + self.head_product(a * b)
         return self.score(torch.relu(z)).squeeze(-1)
+
+
+def _page_mean(x: Tensor, mask: Tensor, page: Tensor | None) -> Tensor:
+    """The mean token of each junction's page, (J, 1, width): how this artist draws."""
+    total, count = (x * mask.unsqueeze(-1)).sum(1), mask.sum(1, keepdim=True)
+    if page is None:
+        return (total.sum(0, keepdim=True) / count.sum(0, keepdim=True)).unsqueeze(1)
+    pages = int(page.max()) + 1
+    total = total.new_zeros(pages, total.shape[1]).index_add(0, page, total)
+    count = count.new_zeros(pages, 1).index_add(0, page, count)
+    return (total / count)[page].unsqueeze(1)
 
 
 class _Layer(nn.Module):
@@ -78,6 +99,7 @@ class _Layer(nn.Module):
         self.norm2 = nn.LayerNorm(width)
         self.mix = nn.Sequential(nn.Linear(2 * width, 2 * width), nn.ReLU())
         self.mix_out = nn.Linear(2 * width, width)
+        self.overview = nn.Linear(width, width)
 
     def forward(
         self, x: Tensor, e: Tensor, blocked: Tensor, sibling: Tensor, alone: Tensor

@@ -21,6 +21,7 @@ from .data import Bank, Batch, encoded, joined, true_page
 from .judge import Verdict, judge
 from .model import RoutingNet
 from .pages import Library
+from .traced import load
 
 
 def main() -> None:
@@ -36,6 +37,9 @@ def main() -> None:
     parser.add_argument("--minutes", type=float, default=1e9, help="stop after so much CPU time")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--device", default="cpu", help="cpu, cuda or mps")
+    parser.add_argument("--traced", type=Path, help="pages by training.routing.traced")
+    parser.add_argument("--traced-held-out", type=Path, help="the same, to validate on")
+    parser.add_argument("--traced-share", type=float, default=0.4)
     parser.add_argument("--start", type=Path, help="weights to start from")
     train(parser.parse_args())
 
@@ -54,14 +58,18 @@ def train(args: argparse.Namespace) -> None:
         net.load_state_dict(saved["net"])
         optimizer.load_state_dict(saved["optimizer"])
         first = saved["step"]
-    bank = Bank(Library.load(args.data, held_out=False), args.seed * 1000 + first)
-    held_out = validation(Library.load(args.data, held_out=True))
+    traced = load(args.traced) if args.traced else []
+    library = Library.load(args.data, held_out=False)
+    bank = Bank(library, args.seed * 1000 + first, traced, args.traced_share)
+    held_out = validation(Library.load(args.data, held_out=True), args.traced_held_out)
     loss_of = getattr(likelihood, args.loss)
     started, running = time.process_time(), []
     for step in range(first, args.steps):
         warm = min(1.0, (step + 1) / 200)
         for group in optimizer.param_groups:
-            group["lr"] = args.rate * warm * (0.02 + 0.49 * (1 + math.cos(math.pi * step / args.steps)))
+            group["lr"] = (
+                args.rate * warm * (0.02 + 0.49 * (1 + math.cos(math.pi * step / args.steps)))
+            )
         # Junctions of more than six are rare: a wider table is only now and then worth its time.
         batch = bank.batch(args.junctions, 8 if step % 5 == 0 else 6)
         scores = run(net, batch, args.device)
@@ -91,18 +99,22 @@ def train(args: argparse.Namespace) -> None:
 
 def run(net: RoutingNet, batch: Batch, device: str) -> torch.Tensor:
     """(J, D, D) scores of a batch."""
-    arrays = (batch.tokens, batch.pairs, batch.sibling.astype(np.int64), batch.mask)
+    arrays = (batch.tokens, batch.pairs, batch.sibling.astype(np.int64), batch.mask, batch.page)
     return net(*(torch.from_numpy(a).to(device) for a in arrays))
 
 
 @torch.no_grad()
 def evaluate(net: RoutingNet, batch: Batch, device: str = "cpu") -> Verdict:
-    """How the network decides the junctions of a batch."""
-    return judge(run(net, batch, device).cpu().numpy(), batch.mask, batch.truth)
+    """How the network decides the junctions of a batch; contradicting ones are left out."""
+    clear = (batch.truth.sum(2) <= 1).all(1) & (batch.asked > 0)
+    scores = run(net, batch, device).cpu().numpy()
+    return judge(scores[clear], batch.mask[clear], batch.truth[clear])
 
 
-def validation(library: Library, pages: int = 60, seed: int = 5) -> dict[str, Batch]:
-    """Held-out pages: as drawn ("true"), and as roughly traced ("rough")."""
+def validation(
+    library: Library, traced: Path | None = None, pages: int = 60, seed: int = 5
+) -> dict[str, Batch]:
+    """Held-out pages: as drawn ("true"), varied at random ("rough"), and really traced."""
     rng = np.random.default_rng(seed)
     drawn, rough = [], []
     while len(drawn) < pages:
@@ -110,7 +122,10 @@ def validation(library: Library, pages: int = 60, seed: int = 5) -> dict[str, Ba
         if len(page.graph.junctions):
             drawn.append(encoded(page, {}, 8))
             rough.append(encoded(augmented(rng, page), {}, 8))
-    return {"true": joined(drawn), "rough": joined([part for part in rough if len(part.mask)])}
+    parts = {"true": drawn, "rough": rough}
+    if traced:
+        parts["traced"] = [encoded(page, {}, 8) for page in load(traced)[:pages]]
+    return {name: joined([b for b in batches if len(b.mask)]) for name, batches in parts.items()}
 
 
 if __name__ == "__main__":
