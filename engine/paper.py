@@ -1,0 +1,113 @@
+"""Paper, shading and grain taken out of a page: what is left is ink.
+
+`flatten_paper` is the one normalisation that every later stage relies on, and that the network is
+trained with: simple, deterministic, and it looks only at what lies near.
+"""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+
+from .values import Array
+
+_BLOCK = 8  # px; paper is estimated on a grid of such blocks
+
+
+def flatten_paper(gray: Array) -> Array:
+    """Take paper, shading and grain out of a page of dark lines.
+
+    Two passes: the lightest spots give a first guess of the paper; what that guess calls bare
+    paper then gives its true mean and its grain, so that grain ends up around 0 and can be gated.
+
+    Args:
+        gray: (H, W) float32 luminance in [0, 1]; 0 = black.
+
+    Returns:
+        ink, (H, W) float32 in [0, 1]: 0 on paper, about 1 on a full pen stroke, anti-aliased.
+    """
+    gray = np.ascontiguousarray(gray, np.float32)
+    rough = 1.0 - gray / _light_paper(gray)
+    bare = (rough < 0.04 + 3.0 * _texture(rough)).astype(np.float32)
+    share = _to_grid(bare)
+    known = share > 0.1
+    mean = _smooth_fill(_to_grid(rough * bare) / np.maximum(share, 1e-3), known)
+    darkness = rough - _from_grid(mean, gray.shape)
+    _gate(darkness, bare)
+    return np.minimum(darkness / _pen_level(darkness), 1.0)
+
+
+def _light_paper(gray: Array) -> Array:
+    """A first guess of the paper's luminance at each pixel: the lightest spots around it."""
+    smooth = cv2.blur(gray, (3, 3), borderType=cv2.BORDER_REPLICATE)
+    grid = cv2.medianBlur(_block_max(smooth), 5)
+    # What is far darker than the lightest paper in a wide circle is solid ink, not shadow.
+    size = [max(1, side // 8) for side in grid.shape[::-1]]
+    coarse = cv2.resize(grid, size, interpolation=cv2.INTER_AREA)
+    reach = np.ones((max(3, coarse.shape[0] // 2), max(3, coarse.shape[1] // 2)), np.uint8)
+    bright = cv2.morphologyEx(coarse, cv2.MORPH_CLOSE, reach)
+    bright = cv2.resize(bright, grid.shape[::-1], interpolation=cv2.INTER_LINEAR)
+    return np.maximum(_from_grid(_smooth_fill(grid, grid > 0.5 * bright), gray.shape), 0.05)
+
+
+def _texture(rough: Array) -> Array:
+    """A first guess of the grain (standard deviation) at each pixel, kept below hatching's."""
+    high = np.abs(rough - cv2.GaussianBlur(rough, (0, 0), 1.5))
+    return _from_grid(np.minimum(1.25 * cv2.medianBlur(_to_grid(high), 5), 0.06), rough.shape)
+
+
+def _gate(darkness: Array, bare: Array) -> None:
+    """Shut out, in place, what is as weak as the grain; what is clearly darker stays as it is.
+
+    Judged on smoothed ink, where grain is weaker and the gaps in a pencil line are closed.
+    """
+    smooth = cv2.GaussianBlur(darkness, (0, 0), 1.2)
+    calm = cv2.erode(bare, np.ones((5, 5), np.uint8))  # not the foot of a line
+    share = _to_grid(calm)
+    variance = _to_grid(np.square(smooth) * calm) / np.maximum(share, 1e-3)
+    grain = np.sqrt(_smooth_fill(variance, share > 0.1))
+    low = _from_grid(3.0 * grain + 0.005, darkness.shape)
+    darkness *= np.clip((smooth - low) / (0.6 * low), 0.0, 1.0)
+    np.maximum(darkness, 0.0, out=darkness)
+
+
+def _pen_level(darkness: Array) -> Array:
+    """The darkness of a full stroke around each pixel: between the page's and the local one."""
+    peak = _block_max(cv2.GaussianBlur(darkness, (0, 0), 0.6))
+    inked = peak[peak > 0.06]
+    page = float(np.percentile(inked, 80)) if inked.size else 1.0
+    local = cv2.GaussianBlur(cv2.dilate(peak, np.ones((7, 7), np.uint8)), (0, 0), 3)
+    return _from_grid(np.sqrt(np.clip(local, 0.15 * page, page) * page), darkness.shape)
+
+
+def _block_max(image: Array) -> Array:
+    """The largest value around the centre of each block of the grid."""
+    peak = cv2.dilate(image, np.ones((_BLOCK, _BLOCK), np.uint8))
+    return np.ascontiguousarray(peak[_BLOCK // 2 :: _BLOCK, _BLOCK // 2 :: _BLOCK])
+
+
+def _to_grid(image: Array) -> Array:
+    """The mean of each block."""
+    height, width = image.shape
+    blocks = (
+        max(1, (width + _BLOCK // 2 - 1) // _BLOCK),
+        max(1, (height + _BLOCK // 2 - 1) // _BLOCK),
+    )
+    return cv2.resize(image, blocks, interpolation=cv2.INTER_AREA)
+
+
+def _from_grid(grid: Array, shape: tuple[int, int]) -> Array:
+    return cv2.resize(grid, shape[::-1], interpolation=cv2.INTER_LINEAR)
+
+
+def _smooth_fill(grid: Array, known: Array) -> Array:
+    """Smooth the known values and carry them into the unknown blocks (push-pull pyramid)."""
+    weight = known.astype(np.float32)
+    mass = cv2.GaussianBlur(weight, (0, 0), 1.5)
+    near = cv2.GaussianBlur(grid * weight, (0, 0), 1.5) / np.maximum(mass, 1e-6)
+    if mass.min() > 0.05 or min(grid.shape) < 3:
+        return near if mass.any() else grid
+    far = _smooth_fill(
+        cv2.pyrDown(near * mass) / np.maximum(cv2.pyrDown(mass), 1e-6), cv2.pyrDown(mass) > 0.02
+    )
+    return np.where(mass > 0.05, near, cv2.pyrUp(far, dstsize=grid.shape[::-1]))
