@@ -10,6 +10,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from os import PathLike
+from typing import Any
 
 import numpy as np
 
@@ -35,6 +36,7 @@ class Drawing:
     fills: solid areas; each the rings of one area, (N, 2) float32, the outer one first, then holes.
     size: (width, height).
     seconds: how long each stage took.
+    scale: input pixels per working pixel, the unit in which routing judges lengths.
     """
 
     graph: PlanarGraph
@@ -44,6 +46,7 @@ class Drawing:
     size: tuple[int, int]
     settings: Settings
     seconds: Mapping[str, float] = field(default_factory=dict)
+    scale: float = 1.0
 
     @classmethod
     def from_routing(
@@ -58,27 +61,23 @@ class Drawing:
         widths = graph.widths
         if widths is None:
             widths = np.full(len(graph.points), scan.pen_width, np.float32)
-        scale = np.float32(scan.scale)
-        graph = replace(
-            graph,
-            vertices=graph.vertices * scale,
-            points=graph.points * scale,
-            widths=widths * scale,
-        )
+        graph = _scaled(replace(graph, widths=widths), scan.scale)
         page = Page.of(graph, settings)
         drawing = cls(
             graph=graph,
             routing=routing,
             strokes=tuple(build(page, walk(routing.partner))),
-            fills=tuple(tuple(ring * scale for ring in fill) for fill in fills),
+            fills=tuple(tuple(ring * np.float32(scan.scale) for ring in fill) for fill in fills),
             size=scan.size,
             settings=settings,
+            scale=float(scan.scale),
         )
-        return drawing._with_page(page)
+        vars(drawing)["_page"] = page
+        return drawing
 
     def with_seconds(self, seconds: Mapping[str, float]) -> Drawing:
         """The same drawing with the time that each stage took."""
-        return replace(self, seconds=dict(seconds))._with_page(self._page)
+        return self._replaced(seconds=dict(seconds))
 
     @cached_property
     def junctions(self) -> tuple[Junction, ...]:
@@ -137,9 +136,8 @@ class Drawing:
     def ask_again(self) -> Drawing:
         """Route the junctions that are not locked anew, given those that are."""
         fixed = {j.index: j.pairs for j in self.junctions if j.locked}
-        routing = route(self.graph, self.settings, fixed)
-        changed = replace(self._with_partner(routing.partner), routing=routing)
-        return changed._with_page(self._page)
+        routing = route(_scaled(self.graph, 1 / self.scale), self.settings, fixed)
+        return self._with_partner(routing.partner)._replaced(routing=routing)
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write the drawing; the suffix says how (.json keeps everything)."""
@@ -158,10 +156,12 @@ class Drawing:
     def _page(self) -> Page:
         return Page.of(self.graph, self.settings)
 
-    def _with_page(self, page: Page) -> Drawing:
-        """Hand on what all strokes share, so that a reroute needn't work it out again."""
-        vars(self)["_page"] = page
-        return self
+    def _replaced(self, **changes: Any) -> Drawing:
+        """A changed copy, which inherits what all strokes of the page share."""
+        changed = replace(self, **changes)
+        if "_page" in vars(self):
+            vars(changed)["_page"] = self._page
+        return changed
 
     def _with_locked(self, junctions: Iterable[int], value: bool) -> Drawing:
         locked = self.routing.locked.copy()
@@ -169,8 +169,7 @@ class Drawing:
             if not 0 <= junction < len(locked):
                 raise InvoluteError(f"There is no junction {junction}; there are {len(locked)}.")
             locked[junction] = value
-        changed = replace(self, routing=replace(self.routing, locked=locked))
-        return changed._with_page(self._page)
+        return self._replaced(routing=replace(self.routing, locked=locked))
 
     def _with_partner(self, partner: Array) -> Drawing:
         """Walk anew what the changed half-branches belong to; keep all other strokes."""
@@ -183,4 +182,15 @@ class Drawing:
         made = build(self._page, walk(partner, branches))
         strokes = sorted([*kept, *made], key=lambda s: int(s.branches.min()) >> 1)
         routing = replace(self.routing, partner=np.asarray(partner, np.int32))
-        return replace(self, strokes=tuple(strokes), routing=routing)._with_page(self._page)
+        return self._replaced(strokes=tuple(strokes), routing=routing)
+
+
+def _scaled(graph: PlanarGraph, scale: float) -> PlanarGraph:
+    """The graph in other pixels."""
+    factor = np.float32(scale)
+    return replace(
+        graph,
+        vertices=graph.vertices * factor,
+        points=graph.points * factor,
+        widths=None if graph.widths is None else graph.widths * factor,
+    )

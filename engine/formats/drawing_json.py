@@ -42,6 +42,7 @@ def dumps(drawing: Drawing) -> str:
         "format": FORMAT,
         "version": VERSION,
         "size": list(drawing.size),
+        "scale": drawing.scale,
         "settings": drawing.settings.as_dict(),
         "seconds": dict(drawing.seconds),
         "graph": {f.name: _packed(getattr(drawing.graph, f.name)) for f in fields(PlanarGraph)},
@@ -117,6 +118,7 @@ def _drawing(document: dict[str, Any]) -> Drawing:
         size=(int(document["size"][0]), int(document["size"][1])),
         settings=Settings(**{k: v for k, v in document["settings"].items() if k in known}),
         seconds=document["seconds"],
+        scale=float(document.get("scale", 1.0)),
     )
     _check(drawing)
     return drawing

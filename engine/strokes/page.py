@@ -17,6 +17,7 @@ Array = np.ndarray
 
 SAMPLES_PER_PEN = 4  # samples along a line of one pen width
 _BLOB = 1.0  # pen widths around a junction in which the ink of other lines spoils width and colour
+_UNKNOWN = 4.0  # px
 _FULL_INK = 80  # percentile of strength that counts as opaque
 
 
@@ -46,8 +47,9 @@ class Page:
 
     @classmethod
     def of(cls, graph: PlanarGraph, settings: Settings) -> Page:
-        """Sample a graph whose widths are known."""
-        pen = max(float(np.median(graph.widths)), 0.1) if len(graph.points) else 1.0
+        """Sample a graph; without widths, its lines are `_UNKNOWN` px wide."""
+        widths = np.full(len(graph.points), _UNKNOWN) if graph.widths is None else graph.widths
+        pen = max(float(np.median(widths)), 0.1) if len(widths) else _UNKNOWN
         size = np.diff(graph.offsets)
         branch = np.repeat(np.arange(graph.branch_count), size)
         points = graph.points.astype(np.float64)
@@ -87,7 +89,7 @@ class Page:
             pen=pen,
             points=at(points),
             offsets=offsets,
-            widths=at(graph.widths)[:, 0],
+            widths=at(widths)[:, 0],
             opacity=np.clip(at(strength)[:, 0] / full, 0.0, 1.0),
             trust=np.clip(near / (_BLOB * pen) - 0.5, 0.0, 1.0),
             length=length,
