@@ -154,8 +154,6 @@ def _add_settings(parser: argparse.ArgumentParser) -> None:
     group = parser.add_argument_group("settings")
     types = get_type_hints(Settings)
     for setting in _optional():
-        if setting.name not in _HELP:  # found out for a sequence, not given
-            continue
         option, text = setting.name.replace("_", "-"), _HELP[setting.name]
         if types[setting.name] is bool:
             group.add_argument(f"--no-{option}", dest=setting.name, action="store_false", help=text)
@@ -189,14 +187,6 @@ def _count(text: str) -> int:
     if not text.isdecimal():
         raise argparse.ArgumentTypeError(f"{text!r} is not a number of processes")
     return int(text)
-
-
-def _optional() -> list[Field[Any]]:
-    return [setting for setting in fields(Settings) if setting.name in _HELP]
-
-
-def _names(text: str) -> tuple[str, ...]:
-    return tuple(name.strip().lower() for name in text.split(",") if name.strip())
 
 
 def _settings(options: argparse.Namespace) -> Settings:
