@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import fields
 from typing import TYPE_CHECKING, Any
 
 from bpy.props import BoolProperty, EnumProperty, FloatProperty
 from bpy.types import PropertyGroup
 
 from ..engine import Settings
+from ..engine.settings import INKS
 
 if TYPE_CHECKING:
     import bpy
@@ -58,6 +58,18 @@ class TraceSettings:
         name="Ink Colors",
         description="Give every ink its own layer and material; off draws all lines in black",
         default=_DEFAULTS.inks,
+    )
+    ignore_inks: EnumProperty(
+        name="Ignore Inks",
+        description="Inks that are not traced, such as a blue construction pencil",
+        items=[(name, name.title(), f"Don't trace {name} lines") for name in INKS],
+        default=set(_DEFAULTS.ignore_inks),
+        options={"ENUM_FLAG"},
+    )
+    marks: BoolProperty(
+        name="Leave Out Marks",
+        description="Don't trace scan borders, punched holes and registration marks",
+        default=_DEFAULTS.marks,
     )
     min_length: FloatProperty(
         name="Specks",
@@ -116,7 +128,7 @@ class TraceSettings:
     )
 
 
-NAMES = tuple(f.name for f in fields(Settings))
+NAMES = tuple(TraceSettings.__annotations__)
 
 
 class INVOLUTE_PG_trace_settings(TraceSettings, PropertyGroup):
@@ -124,13 +136,16 @@ class INVOLUTE_PG_trace_settings(TraceSettings, PropertyGroup):
 
 
 def as_values(source: TraceSettings) -> dict[str, Any]:
-    """The settings as plain values."""
-    return {name: getattr(source, name) for name in NAMES}
+    """The settings as operators take them."""
+    values = {name: getattr(source, name) for name in NAMES}
+    # Blender keeps floats in 32 bits: 0.3 comes back as 0.30000001.
+    return {n: float(f"{v:.6g}") if isinstance(v, float) else v for n, v in values.items()}
 
 
 def engine_settings(source: TraceSettings) -> Settings:
     """The settings as the engine takes them."""
-    return Settings(**as_values(source))
+    values = as_values(source)
+    return Settings(**values | {"ignore_inks": tuple(sorted(values["ignore_inks"]))})
 
 
 def scene_settings(scene: bpy.types.Scene) -> INVOLUTE_PG_trace_settings:

@@ -8,8 +8,8 @@ if TYPE_CHECKING:
     import bpy
 
 GROUPS = (
-    ("What the Drawing Is", ("polarity", "pen_width", "provider", "inks", "solids")),
-    ("How Clean", ("min_length", "smoothing", "router")),
+    ("What the Drawing Is", ("polarity", "pen_width", "inks", "ignore_inks", "solids", "marks")),
+    ("How Clean", ("min_length", "smoothing", "provider", "router", "device")),
     ("How Many Points", ("curve", "tolerance")),
 )
 

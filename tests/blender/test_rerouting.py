@@ -117,8 +117,9 @@ def apart(points, stroke, closed):
 
     def dense(p):
         p = np.concatenate([p, p[:1]]) if closed else p
-        t = np.linspace(0, len(p) - 1, 20 * len(p))
-        return np.stack([np.interp(t, np.arange(len(p)), p[:, k]) for k in (0, 1)], 1)
+        along = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(p, axis=0), axis=1))])
+        at = np.arange(0, along[-1], 0.5)
+        return np.stack([np.interp(at, along, p[:, k]) for k in (0, 1)], 1)
 
     a, b = dense(points), dense(stroke.points)
     between = np.linalg.norm(a[:, None] - b[None], axis=2)
