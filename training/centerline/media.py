@@ -35,6 +35,18 @@ class Samples:
     def __len__(self) -> int:
         return len(self.stroke)
 
+    @staticmethod
+    def merge(parts: list[Samples]) -> Samples:
+        """The samples of several drawings; strokes are numbered on."""
+        offsets = np.cumsum([0] + [int(p.stroke.max()) + 1 for p in parts])
+        return Samples(
+            np.concatenate([p.position for p in parts]),
+            np.concatenate([p.tangent for p in parts]),
+            np.concatenate([p.stroke + o for p, o in zip(parts, offsets, strict=False)]),
+            np.concatenate([p.arc for p in parts]),
+            np.concatenate([p.length for p in parts]),
+        )
+
     def take(self, keep: Array) -> Samples:
         """The samples that a mask or an index selects."""
         return Samples(

@@ -7,7 +7,7 @@ import numpy as np
 from involute.engine.scan import flatten_paper
 
 from .geometry import Array, Library, Rng, Strokes, invented, true_drawing
-from .media import MEDIA, Medium, draw, line_spacing, noise, sample
+from .media import MEDIA, Medium, Samples, draw, line_spacing, noise, sample
 from .paper import clean, paper, scan, shadow
 from .targets import MAX_HALF_WIDTH, Targets, targets
 
@@ -16,26 +16,29 @@ _MIN_SPACING = 2.7  # px; denser hatching is a tone, not lines
 CHANNELS = ("ink", "centerline", "junctions", "endpoints", "half_width", "solid")
 
 
-def page(rng: Rng, library: Library, size: int, held_out: bool = False) -> Array:
+def page(
+    rng: Rng, library: Library, size: int, held_out: bool = False, only: str | None = None
+) -> Array:
     """A page as (6, size, size) uint8, channels as in CHANNELS.
 
-    The same generator state gives the same page; held_out picks from the validation drawings.
+    The same generator state gives the same page; held_out picks from the validation drawings,
+    only names the one medium to draw with.
     """
     drawings = _compose(rng, library, size, held_out)
     ink = np.zeros((size, size), np.float32)
     all_samples, halves = [], []
-    medium = _medium(rng)
+    medium = _medium(rng, only)
     pen = _pen(rng, medium)
     faint = rng.uniform(0.12, 0.5) if rng.random() < 0.12 else 1.0
     for strokes, widest in drawings:
         if rng.random() < 0.25:
-            medium = _medium(rng)
+            medium = _medium(rng, only)
             pen = _pen(rng, medium)
         samples = sample(strokes, size)
         spacing = line_spacing(samples, size)
         if len(samples) < 2 or spacing < _MIN_SPACING:
             continue
-        if rng.random() < 0.7:
+        if rng.random() < 0.9:
             widest = min(widest, 0.8 * spacing)
         width = max(1.0, min(pen * rng.uniform(0.9, 1.1), widest))
         layer, half = draw(rng, samples, medium, width, size)
@@ -43,13 +46,12 @@ def page(rng: Rng, library: Library, size: int, held_out: bool = False) -> Array
         ink = 1 - (1 - ink) * (1 - layer * own)
         all_samples.append(samples)
         halves.append(half)
-    maps = _targets(all_samples, halves, size)
     solid = _solids(rng, size) if rng.random() < 0.15 else np.zeros_like(ink)
     ink = 1 - (1 - ink) * (1 - solid * rng.uniform(0.85, 1.0))
-    keep = (solid < 0.5).astype(np.float32)
     gray = _photograph(rng, ink, library, size, held_out)
     cleaned = flatten_paper(gray) if rng.random() < 0.7 else clean(rng, gray)
-    return _pack(cleaned, maps, keep, solid)
+    maps = _targets(all_samples, halves, cleaned)
+    return _pack(cleaned, maps, (solid < 0.5).astype(np.float32), solid)
 
 
 def _compose(rng: Rng, library: Library, size: int, held_out: bool) -> list[tuple[Strokes, float]]:
@@ -73,8 +75,8 @@ def _sane(strokes: Strokes, size: int) -> Strokes:
     return near[:3000] or [np.full((2, 2), -1e4, np.float32)]
 
 
-def _medium(rng: Rng) -> Medium:
-    return MEDIA[str(rng.choice(list(MEDIA)))]
+def _medium(rng: Rng, only: str | None) -> Medium:
+    return MEDIA[only or str(rng.choice(list(MEDIA)))]
 
 
 def _pen(rng: Rng, medium: Medium) -> float:
@@ -83,17 +85,26 @@ def _pen(rng: Rng, medium: Medium) -> float:
     return float(np.exp(rng.uniform(np.log(low), np.log(high))))
 
 
-def _targets(samples: list, halves: list[Array], size: int) -> Targets:
-    if not samples:
-        blank = np.zeros((size, size), np.float32)
-        return Targets(blank, blank, blank, blank)
-    offsets = np.cumsum([0] + [s.stroke.max() + 1 for s in samples])
-    merged = type(samples[0])(
-        *(np.concatenate([getattr(s, name) for s in samples]) for name in ("position", "tangent")),
-        np.concatenate([s.stroke + o for s, o in zip(samples, offsets, strict=False)]),
-        *(np.concatenate([getattr(s, name) for s in samples]) for name in ("arc", "length")),
-    )
-    return targets(merged, np.concatenate(halves), size)
+def _targets(samples: list[Samples], halves: list[Array], ink: Array) -> Targets:
+    """The maps of all strokes that can be seen in the ink."""
+    size = len(ink)
+    if samples:
+        merged, half = Samples.merge(samples), np.concatenate(halves)
+        seen = _visible(merged.position, ink)
+        if np.count_nonzero(seen) > 1:
+            return targets(merged.take(seen), half[seen], size)
+    blank = np.zeros((size, size), np.float32)
+    return Targets(blank, blank, blank, blank)
+
+
+def _visible(points: Array, ink: Array) -> Array:
+    """Whether there is more ink around (N, 2) points than on bare paper; points off the page too.
+
+    Nobody can trace what the paper's grain has swallowed.
+    """
+    near = cv2.blur(cv2.dilate(ink, np.ones((5, 5), np.uint8)), (17, 17))
+    cell = np.clip(points.astype(int), 0, len(ink) - 1)
+    return near[cell[:, 1], cell[:, 0]] > 1.2 * np.median(near) + 0.05
 
 
 def _solids(rng: Rng, size: int) -> Array:

@@ -1,0 +1,88 @@
+"""Figures by medium on pages of held-out drawings, beside the classical provider's.
+
+python -m involute.training.centerline.validate --data DIR [--weights FILE] [--pages 12]
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+from involute.engine.centerline.backends import load
+from involute.engine.centerline.classical import classical
+from involute.engine.centerline.network import HALF_WIDTH_UNIT, WEIGHTS, trace_maps
+from involute.engine.scan import measure_pen
+from involute.engine.values import LineMaps, Scan
+
+from .geometry import Array, Library
+from .media import MEDIA
+from .metrics import page_figures, pooled
+from .sample import page
+
+SIZE = 512
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """The command line."""
+    parser = argparse.ArgumentParser(prog="validate", description=__doc__.splitlines()[0])
+    parser.add_argument("--data", type=Path, required=True)
+    parser.add_argument("--weights", type=Path, default=WEIGHTS)
+    parser.add_argument("--pages", type=int, default=12, help="for each medium")
+    parser.add_argument("--seed", type=int, default=77)
+    parser.add_argument("--device", default="cpu", choices=["cpu", "gpu"])
+    parser.add_argument("--json", type=Path, help="write the figures here as well")
+    options = parser.parse_args(arguments)
+    infer = load(options.weights, options.device)
+
+    def network(scan: Scan) -> LineMaps:
+        return trace_maps(scan.ink, infer, lambda fraction: None)
+
+    ways = {"network": network, "classical": lambda scan: classical(scan, lambda fraction: None)}
+    library = Library.load(options.data)
+    table = {way: {} for way in ways}
+    everything: dict[str, list] = {way: [] for way in ways}
+    for number, medium in enumerate(MEDIA):
+        pages = [
+            page(np.random.default_rng((options.seed, number, k)), library, SIZE, True, medium)
+            for k in range(options.pages)
+        ]
+        for way, provider in ways.items():
+            figures = [judge(p, provider) for p in pages]
+            everything[way] += figures
+            table[way][medium] = pooled(figures)
+    for way in ways:
+        table[way]["all"] = pooled(everything[way])
+    print_table(table)
+    if options.json:
+        options.json.write_text(json.dumps(table, indent=1))
+
+
+def judge(maps: Array, provider: Callable[[Scan], LineMaps]) -> dict[str, float]:
+    """Counts of `metrics.page_figures` for one page, (6, H, W) uint8."""
+    truth = maps[1:].astype(np.float32) / 255
+    ink = maps[0].astype(np.float32) / 255
+    seen = provider(Scan(ink, None, 1.0, ink.shape[::-1], measure_pen(ink) or 3.0))
+    nothing = np.zeros_like(ink)
+    half = nothing if seen.half_width is None else seen.half_width / HALF_WIDTH_UNIT
+    others = [nothing if m is None else m for m in (seen.junctions, seen.endpoints)]
+    return page_figures(np.stack([seen.centerline, *others, half, nothing]), truth)
+
+
+def print_table(table: dict[str, dict[str, dict[str, float]]]) -> None:
+    """Markdown: one row for each medium, the classical provider's figure after the slash."""
+    columns = list(table["network"]["all"])
+    print("| medium | " + " | ".join(columns) + " |\n" + "|---" * (len(columns) + 1) + "|")
+    for medium in table["network"]:
+        mine, other = table["network"][medium], table["classical"][medium]
+        cells = [
+            f"{mine[c]:.3f} / {other[c]:.3f}" if c in columns[:3] else f"{mine[c]:.3f}"
+            for c in columns
+        ]
+        print(f"| {medium} | " + " | ".join(cells) + " |")
+
+
+if __name__ == "__main__":
+    main()
