@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any, Literal, get_args, get_origin, get_type_h
 
 from . import batch, planning
 from .errors import InvoluteError
+from .sequence import command as sequence
 from .settings import Settings
 
 if TYPE_CHECKING:
@@ -50,6 +51,7 @@ def main(
     argv: Sequence[str] | None = None,
     writers: Mapping[str, Writer] | None = None,
     evaluate: Evaluate | None = None,
+    sequence_writers: Mapping[str, sequence.Writer] | None = None,
 ) -> int:
     """Run the command line.
 
@@ -57,6 +59,7 @@ def main(
         argv: the arguments, without the program's name; None = those of this process.
         writers: suffix -> function that writes (name, drawing) pairs to one file of that format.
         evaluate: function that compares two SVG files, for `involute evaluate`.
+        sequence_writers: the same as writers, for the (frame, drawing) pairs of a sequence.
 
     Returns:
         0 when all went well, 1 when something failed, 2 for wrong usage, 130 after Ctrl-C.
@@ -66,6 +69,8 @@ def main(
     except SystemExit as stop:  # argparse has said why
         return int(stop.code or 0)
     try:
+        if options.command == "trace" and (options.sequence or options.parts):
+            return _trace_sequence(options, sequence_writers or {})
         if options.command == "trace":
             return _trace(options, writers or {})
         if options.command == "inspect":
@@ -110,7 +115,6 @@ def _parser() -> argparse.ArgumentParser:
     trace.add_argument(
         "-o",
         "--output",
-        required=True,
         metavar="OUT",
         help="a file that ends in .svg, .json, .png or .blend, or a folder",
     )
@@ -127,6 +131,7 @@ def _parser() -> argparse.ArgumentParser:
         action="store_true",
         help="leave out what an earlier run with --resume has done; replace what has changed since",
     )
+    sequence.add_options(trace)
     _add_settings(trace)
 
     inspect = commands.add_parser(
@@ -201,6 +206,8 @@ def _settings(options: argparse.Namespace) -> Settings:
 
 def _trace(options: argparse.Namespace, writers: Mapping[str, Writer]) -> int:
     settings = _settings(options)
+    if not options.output:
+        raise _UsageError("Say where the drawings go with -o.")
     try:
         target = planning.target(options.output, options.format)
     except InvoluteError as error:
@@ -211,7 +218,7 @@ def _trace(options: argparse.Namespace, writers: Mapping[str, Writer]) -> int:
 
     failures: dict[str, str] = {}
     sources = []
-    for path in planning.images(options.inputs):
+    for path in _chosen(planning.images(options.inputs), options.frames):
         try:
             sources.append((path, _page_count(path)))
         except InvoluteError as error:
@@ -224,13 +231,23 @@ def _trace(options: argparse.Namespace, writers: Mapping[str, Writer]) -> int:
         pages = list(_without_existing(pages, failures))
     for path, sentence in failures.items():
         _say(f"{path}: {sentence}", FAILED)
-    _make_folder(target)
+    if not target.is_file:
+        planning.make_folder(target.path)
 
     outcomes = _run(pages, settings, options, writers) if pages else {}
     failed = [page for page, outcome in outcomes.items() if outcome.error]
     if options.report:
         _write_report(Path(options.report), outcomes, failures)
     return FAILED if failed or failures else DONE
+
+
+def _chosen(paths: Iterator[Path], frames: str | None) -> Iterator[Path]:
+    """The images whose number is asked for; all when nothing is."""
+    if frames is None:
+        return paths
+    from .sequence.frames import FrameRange, number_frames
+
+    return iter(Path(f.path) for f in number_frames(paths, frames=FrameRange.parse(frames)))
 
 
 def _page_count(path: Path) -> int:
@@ -248,17 +265,6 @@ def _without_existing(
             failures[there[0]] = "It exists already; use --overwrite to replace it."
         else:
             yield page
-
-
-def _make_folder(target: planning.Target) -> None:
-    if target.is_file:
-        return
-    try:
-        target.path.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise InvoluteError(
-            f"Can't make the folder {target.path}: {error.strerror or error}; choose another."
-        ) from None
 
 
 def _run(
@@ -328,8 +334,6 @@ def _write_waiting(
 def _write_report(
     path: Path, outcomes: Mapping[planning.Page, batch.Outcome], failures: Mapping[str, str]
 ) -> None:
-    from .formats.whole_file import whole_file, write_text
-
     images = [
         {
             "input": str(page.source),
@@ -342,8 +346,14 @@ def _write_report(
         for page, outcome in outcomes.items()
     ]
     images += [{"input": name, "error": sentence} for name, sentence in failures.items()]
+    _write_json(path, {"images": images})
+
+
+def _write_json(path: Path, content: Mapping[str, Any]) -> None:
+    from .formats.whole_file import whole_file, write_text
+
     with whole_file(path) as part:
-        write_text(json.dumps({"images": images}, indent=1) + "\n", part)
+        write_text(json.dumps(content, indent=1) + "\n", part)
 
 
 class _Bar:
@@ -387,6 +397,25 @@ class _Bar:
     def _move(self, fraction: float) -> None:
         if self._bar is not None:
             self._bar.update(self._finished + fraction - self._bar.n)
+
+
+def _trace_sequence(options: argparse.Namespace, writers: Mapping[str, sequence.Writer]) -> int:
+    settings = _settings(options)
+    try:
+        plan = sequence.plan(options, settings, writers)
+    except InvoluteError as error:
+        raise _UsageError(str(error)) from None
+    with _Bar(len(plan.frames)) as bar:
+
+        def progress(frame: sequence.Frame, outcome: batch.Outcome) -> None:
+            bar.next()
+            if outcome.error:
+                bar.say(f"{Path(frame.path).name}: {outcome.error}")
+
+        result = sequence.run(plan, writers, progress)
+    if options.report:
+        _write_json(Path(options.report), {"images": result.report()})
+    return FAILED if result.failed else DONE
 
 
 # --- inspect and evaluate --------------------------------------------------------------------

@@ -126,3 +126,18 @@ def pages(sources: Sequence[tuple[Path, int]], target: Target) -> list[Page]:
             )
             found.append(Page(path, page, title, outputs))
     return found
+
+
+def make_folder(folder: Path) -> Path:
+    """Make a folder, with those above it, unless it is there.
+
+    Raises:
+        InvoluteError: it can't be made.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InvoluteError(
+            f"Can't make the folder {folder}: {error.strerror or error}; choose another."
+        ) from None
+    return folder

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    import bpy
+
     from ..engine import Drawing
 
 
@@ -21,6 +23,42 @@ def write(drawings: Sequence[tuple[str, Drawing]], path: str | PathLike[str]) ->
     Raises:
         InvoluteError: Blender's Python module is not installed, or the file can't be written.
     """
+    scene = _empty_scene()
+    for name, drawing in drawings:
+        _put(_object(scene, name, drawing), scene.frame_current, drawing, name)
+    _save(path)
+
+
+def write_sequence(
+    name: str, frames: Iterable[tuple[int, Drawing]], path: str | PathLike[str]
+) -> None:
+    """Write one Grease Pencil object with a keyframe per drawing, with a camera and frame range.
+
+    Args:
+        name: of the object.
+        frames: frame numbers, ascending, and drawings; asked for one at a time.
+        path: the .blend file, made or overwritten.
+
+    Raises:
+        InvoluteError: as for `write`; or there is no frame at all.
+    """
+    scene = _empty_scene()
+    obj = None
+    for frame, drawing in frames:
+        if obj is None:
+            obj = _object(scene, name, drawing)
+            scene.frame_start = scene.frame_current = frame
+        _put(obj, frame, drawing, f"{name} {frame}", alone=True)
+        scene.frame_end = frame
+    if obj is None:
+        from ..engine import InvoluteError
+
+        raise InvoluteError("No frame could be traced; there is nothing to write.")
+    _save(path)
+
+
+def _empty_scene() -> bpy.types.Scene:
+    """A fresh scene; preferences stay: this may run inside Blender, with the extension enabled."""
     from ..engine import InvoluteError
 
     try:
@@ -30,27 +68,45 @@ def write(drawings: Sequence[tuple[str, Drawing]], path: str | PathLike[str]) ->
             "Writing .blend files needs Blender: install the extra 'blender', or run "
             "blender -b --command involute."
         ) from error
+    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True, load_ui=False)
+    return bpy.context.scene
+
+
+def _object(scene: bpy.types.Scene, name: str, drawing: Drawing) -> bpy.types.Object:
+    """A new Grease Pencil object in the scene; the first one gets the camera."""
+    import bpy
+
+    from .trace import new_object
+
+    obj = new_object(name)
+    scene.collection.objects.link(obj)
+    if scene.camera is None:
+        scene.camera = _camera_on(drawing.size)
+        scene.collection.objects.link(scene.camera)
+        _frame_size(scene.render, drawing.size)
+        scene.view_settings.view_transform = "Standard"  # ink stays as black as it was
+        obj.select_set(True)
+        bpy.context.view_layer.objects.active = obj
+    return obj
+
+
+def _put(
+    obj: bpy.types.Object, frame: int, drawing: Drawing, source: str, *, alone: bool = False
+) -> None:
     from . import grease_pencil as gp
     from . import state
     from .placement import front_view
-    from .trace import new_object
 
-    # Preferences stay: this may run inside Blender, with the extension enabled.
-    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True, load_ui=False)
-    scene = bpy.context.scene
-    for name, drawing in drawings:
-        obj = new_object(name)
-        scene.collection.objects.link(obj)
-        placement = front_view(drawing.size)
-        key = state.add(obj.data, drawing, placement, name)
-        gp.write(obj.data, scene.frame_current, drawing, placement, key)
-        if scene.camera is None:
-            scene.camera = _camera_on(drawing.size)
-            scene.collection.objects.link(scene.camera)
-            _frame_size(scene.render, drawing.size)
-            scene.view_settings.view_transform = "Standard"  # ink stays as black as it was
-            obj.select_set(True)
-            bpy.context.view_layer.objects.active = obj
+    placement = front_view(drawing.size)
+    key = state.add(obj.data, drawing, placement, source)
+    gp.write(obj.data, frame, drawing, placement, key, alone=alone)
+
+
+def _save(path: str | PathLike[str]) -> None:
+    import bpy
+
+    from ..engine import InvoluteError
+
     target = Path(fspath(path)).absolute()
     try:
         # The name with .blend first: Blender would add the ending by itself.

@@ -12,7 +12,11 @@ def run(argv: list[str]) -> int:
     from ..engine.cli import main
     from . import blend_file
 
-    return main(argv, writers={".blend": blend_file.write})
+    return main(
+        argv,
+        writers={".blend": blend_file.write},
+        sequence_writers={".blend": blend_file.write_sequence},
+    )
 
 
 def register() -> None:

@@ -57,12 +57,25 @@ def all_drawings(data: bpy.types.ID) -> Iterator[object]:
 # --- writing a whole drawing ---------------------------------------------------------------------
 
 
-def write(data: bpy.types.ID, frame: int, drawing: Drawing, placement: Placement, key: int) -> None:
+def write(
+    data: bpy.types.ID,
+    frame: int,
+    drawing: Drawing,
+    placement: Placement,
+    key: int,
+    *,
+    alone: bool = False,
+) -> None:
     """Write a drawing as the keyframe `frame`: a layer per ink, solid blacks on a layer below.
 
     What these layers showed at that very frame is replaced; other layers stay.
+
+    Args:
+        alone: for a sequence: end what other layers still show of traces at earlier frames.
     """
+    written: set[str] = set()
     if drawing.fills:
+        written.add(FILL_LAYER)
         _write_fills(_keyframe(data, FILL_LAYER, frame), data, drawing, placement, key)
     inks: dict[tuple[int, int, int], list[Stroke]] = {}
     for stroke in drawing.strokes:
@@ -72,11 +85,16 @@ def write(data: bpy.types.ID, frame: int, drawing: Drawing, placement: Placement
         name = ink_name(color)
         names[name] = names.get(name, 0) + 1
         layer = name if names[name] == 1 else f"{name} {names[name]}"
+        written.add(layer)
         material = _material_slot(data, layer, color, fill=False)
         columns = stroke_curves(strokes, placement, key, material)
         append(_keyframe(data, layer, frame), columns)
     if not inks and not drawing.fills:
         _keyframe(data, ink_name((0, 0, 0)), frame)  # a blank page is a blank keyframe
+    if alone:
+        for layer in [layer for layer, held in drawings_at(data, frame) if _has_traces(held)]:
+            if layer.name not in written:
+                _keyframe(data, layer.name, frame)
 
 
 def append(drawing: object, curves: Curves) -> None:
@@ -186,10 +204,15 @@ def _keyframe(data: bpy.types.ID, name: str, frame: int) -> object:
             data.layers.move_bottom(layer)
     key = next((k for k in layer.frames if k.frame_number == frame), None)
     drawing = (key or layer.frames.new(frame)).drawing
-    traced = read_column(drawing, TRACE)
-    if traced is not None and traced.any():
+    if _has_traces(drawing):
+        traced = read_column(drawing, TRACE)
         drawing.remove_strokes(indices=np.flatnonzero(traced).tolist())
     return drawing
+
+
+def _has_traces(drawing: object) -> bool:
+    traced = read_column(drawing, TRACE)
+    return traced is not None and bool(traced.any())
 
 
 def _material_slot(data: bpy.types.ID, name: str, color: Sequence[int], fill: bool) -> int:

@@ -10,6 +10,7 @@ from tempfile import TemporaryDirectory
 from .. import batch
 from ..drawing import Drawing
 from ..errors import InvoluteError
+from ..planning import make_folder
 from ..settings import Settings
 from .follow import Follower
 from .frames import Frame
@@ -74,11 +75,7 @@ def part_tasks(
     Raises:
         InvoluteError: the folder can't be made.
     """
-    folder = Path(parts)
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise InvoluteError(f"Can't make the folder {folder}: {error.strerror}.") from None
+    folder = make_folder(Path(parts))
     return [batch.Task(f.path, (str(folder / part_name(f)),), settings, f.page) for f in frames]
 
 
@@ -90,7 +87,9 @@ def part_name(frame: Frame) -> str:
 def _drawing(outcome: batch.Outcome) -> Drawing | InvoluteError:
     if outcome.error:
         return InvoluteError(outcome.error)
+    part = outcome.task.outputs[0]
     try:
-        return Drawing.load(outcome.task.outputs[0])
-    except InvoluteError as error:
-        return error
+        return Drawing.load(part)
+    except InvoluteError:  # damaged since: make it anew
+        reply = batch.perform(outcome.task, receipt=True)
+        return InvoluteError(reply["error"]) if "error" in reply else Drawing.load(part)
