@@ -20,9 +20,8 @@ from involute.engine.routing.encoding import along
 from involute.engine.routing.halves import candidate_pairs
 from involute.engine.routing.matching import MAX_LISTED_DEGREE
 from involute.engine.values import Pair, PlanarGraph
-
-from training.routing.judge import Verdict, judge, tables
-from training.routing.planar import graph_from_strokes
+from involute.training.routing.judge import Verdict, judge, tables
+from involute.training.routing.planar import graph_from_strokes
 
 from .drawings import DATA, pages
 

@@ -136,7 +136,7 @@ def along(graph: PlanarGraph, reach: Array) -> tuple[Array, Array]:
     sign = np.tile([1.0, -1.0], graph.branch_count)
     vertex = np.stack([points[first], points[last]], 1).reshape(-1)
     where = origin[:, None] + sign[:, None] * np.minimum(reach, length[:, None])
-    found = np.interp(where, arc, points.real) + 1j * np.interp(where, arc, points.imag)
+    found = np.interp(where, arc, points) if len(points) else where.astype(complex)
     return found - vertex[:, None], length
 
 

@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 from threading import Lock
+from typing import Any
 
 import numpy as np
 
@@ -71,7 +72,7 @@ def _forward(tokens: Array, pairs: Array, sibling: Array, mask: Array) -> Array:
     if not len(tokens):
         return np.zeros((*mask.shape, mask.shape[1]), np.float32)
     with _running:  # a net holds the state of its last run
-        net, calibration = _load()
+        net, calibration = load(_WEIGHTS)
         net.setInput(tokens, "tokens")
         net.setInput(pairs, "pairs")
         net.setInput(sibling.reshape(-1).astype(np.int64), "sibling")
@@ -94,12 +95,17 @@ def calibrated(scores: Array, degree: Array, calibration: Mapping[str, list[floa
 
 
 @cache
-def _load():
+def load(folder: Path) -> tuple[Any, dict[str, list[float]]]:
+    """The network and its calibration: routing.onnx and routing.json of a folder.
+
+    Raises:
+        InvoluteError: they are missing or can't be read.
+    """
     import cv2
 
     try:
-        net = cv2.dnn.readNetFromONNX(str(_WEIGHTS / "routing.onnx"), cv2.dnn.ENGINE_NEW)
-        calibration = json.loads((_WEIGHTS / "routing.json").read_text())
+        calibration = json.loads((folder / "routing.json").read_text("utf-8"))
+        net = cv2.dnn.readNetFromONNX(str(folder / "routing.onnx"), cv2.dnn.ENGINE_NEW)
     except (cv2.error, OSError, ValueError) as error:
         raise InvoluteError("The weights of the routing network are missing or damaged.") from error
     return net, calibration

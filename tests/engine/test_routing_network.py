@@ -1,0 +1,146 @@
+"""The routing network as the engine runs it: what it sees, what it decides, what it is told."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from involute.engine import InvoluteError, Settings
+from involute.engine.routing import geometric, network, route
+from involute.engine.routing.encoding import MAX_DEGREE, encode
+from involute.engine.routing.halves import candidate_pairs
+from involute.engine.values import PlanarGraph
+from involute.training.routing.planar import graph_from_strokes
+
+NETWORK = Settings(router="network")
+Scribble = Callable[..., tuple[PlanarGraph, np.ndarray]]
+
+
+def _scores(graph: PlanarGraph) -> dict[tuple[int, int], float]:
+    pairs = candidate_pairs(graph)
+    return dict(zip(map(tuple, pairs.tolist()), network.score(graph, pairs).tolist(), strict=True))
+
+
+def _line(*points: tuple[float, float]) -> np.ndarray:
+    corners = np.array(points, float)
+    t = np.linspace(0, len(points) - 1, 30 * (len(points) - 1) + 1)
+    return np.stack([np.interp(t, np.arange(len(points)), corners[:, c]) for c in (0, 1)], 1)
+
+
+def _star(arms: int) -> PlanarGraph:
+    angle = np.arange(arms) * 2 * np.pi / arms
+    lines = [_line((100, 100), (100 + 60 * np.cos(a), 100 + 60 * np.sin(a))) for a in angle]
+    return graph_from_strokes(lines)[0]
+
+
+@given(st.integers(0, 999), st.floats(0, 6.28), st.floats(-500, 500))
+@settings(max_examples=10)
+def test_turning_and_moving_the_page_changes_nothing(
+    scribble: Scribble, seed: int, angle: float, shift: float
+) -> None:
+    graph, _ = scribble(seed)
+    turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+    moved = replace(
+        graph,
+        vertices=(graph.vertices @ turn + shift).astype(np.float32),
+        points=(graph.points @ turn + shift).astype(np.float32),
+    )
+    before, after = _scores(graph), _scores(moved)
+    assert before.keys() == after.keys()
+    # A tie between two turns may flip a rank; nearly all pairs must not notice anything.
+    change = [abs(before[pair] - after[pair]) for pair in before]
+    assert np.mean(np.array(change) < 0.1) > 0.95 if change else True
+
+
+@given(st.integers(0, 999))
+@settings(max_examples=10)
+def test_the_direction_of_a_branch_does_not_matter(scribble: Scribble, seed: int) -> None:
+    graph, _ = scribble(seed)
+    order = np.concatenate(
+        [np.arange(a, b)[::-1] for a, b in zip(graph.offsets, graph.offsets[1:], strict=False)]
+    )
+    values = {name: getattr(graph, name)[order] for name in ("points", "widths", "strength")}
+    backward = replace(graph, ends=graph.ends[:, ::-1].copy(), colors=graph.colors[order], **values)
+    before, after = _scores(graph), _scores(backward)
+    for (a, b), value in before.items():
+        pair = (min(a ^ 1, b ^ 1), max(a ^ 1, b ^ 1))
+        assert after[pair] == pytest.approx(value, abs=0.02)
+
+
+def test_a_crossing_runs_straight_and_a_stem_ends_at_its_bar() -> None:
+    strokes = [_line((20, 60), (180, 60)), _line((60, 10), (60, 150)), _line((140, 60), (140, 150))]
+    graph, partner = graph_from_strokes(strokes)
+    routing = route(graph, NETWORK)
+    np.testing.assert_array_equal(routing.partner, partner)
+
+
+def test_a_shallow_crossing_of_curves_keeps_both_lines() -> None:
+    t = np.linspace(0, 1, 80)
+    strokes = [np.stack([20 + 260 * t, 100 + s * 60 * (t - 0.5) ** 3 * 8], 1) for s in (1, -1)]
+    strokes[1][:, 1] += 40 * (t - 0.5)
+    graph, partner = graph_from_strokes(strokes)
+    assert len(graph.junctions) >= 1
+    np.testing.assert_array_equal(route(graph, NETWORK).partner, partner)
+
+
+def test_random_drawings_are_routed_better_than_by_geometry(scribble: Scribble) -> None:
+    wrong = {"network": 0, "geometric": 0}
+    for seed in range(30):
+        graph, partner = scribble(seed, 12)
+        for router in wrong:
+            found = route(graph, Settings(router=router)).partner
+            wrong[router] += int((found != partner).sum())
+    assert wrong["network"] < wrong["geometric"]
+
+
+def test_what_the_user_fixed_stays_and_is_seen(scribble: Scribble) -> None:
+    graph, _ = scribble(3, 12)
+    first = route(graph, NETWORK)
+    fixed = {0: first.alternatives[0][1].pairs}
+    again = route(graph, NETWORK, fixed)
+    for a, b in fixed[0]:
+        assert again.partner[a] == b
+    assert again.locked[0]
+    assert not np.array_equal(first.pair_score, again.pair_score)
+
+
+def test_empty_slots_and_other_pages_sizes_change_no_score(scribble: Scribble) -> None:
+    graph, _ = scribble(5, 10)
+    narrow, wide = encode(graph), encode(graph, slots=MAX_DEGREE)
+    slots = narrow.halves.shape[1]
+    np.testing.assert_array_equal(narrow.halves, wide.halves[:, :slots])
+    assert (wide.halves[:, slots:] == -1).all()
+    np.testing.assert_array_equal(narrow.tokens, wide.tokens[:, :slots])
+    np.testing.assert_array_equal(narrow.pairs, wide.pairs[:, :slots, :slots])
+
+
+def test_a_star_of_too_many_arms_gets_its_geometric_score() -> None:
+    graph = _star(MAX_DEGREE + 1)
+    pairs = candidate_pairs(graph)
+    np.testing.assert_array_equal(network.score(graph, pairs), geometric.score(graph, pairs))
+
+
+@pytest.mark.parametrize("arms", range(3, MAX_DEGREE + 1))
+def test_every_degree_gets_finite_scores(arms: int) -> None:
+    graph = _star(arms)
+    assert np.isfinite(network.score(graph, candidate_pairs(graph))).all()
+
+
+def test_a_page_without_junctions_has_no_scores() -> None:
+    graph, _ = graph_from_strokes([_line((0, 0), (50, 10))])
+    assert len(network.score(graph, candidate_pairs(graph))) == 0
+    assert len(network.score(PlanarGraph.empty(), np.zeros((0, 2), np.int32))) == 0
+
+
+def test_missing_or_damaged_weights_are_said_in_a_sentence(tmp_path: Path) -> None:
+    with pytest.raises(InvoluteError, match="routing network"):
+        network.load(tmp_path)
+    (tmp_path / "routing.json").write_text("{}")
+    (tmp_path / "routing.onnx").write_bytes(b"no network")
+    with pytest.raises(InvoluteError, match="routing network"):
+        network.load(tmp_path)
