@@ -38,12 +38,21 @@ def _star(arms: int) -> PlanarGraph:
     return graph_from_strokes(lines)[0]
 
 
+def _warped(graph: PlanarGraph) -> PlanarGraph:
+    """The graph with all symmetry taken away."""
+
+    def bend(points: np.ndarray) -> np.ndarray:
+        return (points + 3 * np.sin(points[:, ::-1] / [23, 31] + [1, 2])).astype(np.float32)
+
+    return replace(graph, vertices=bend(graph.vertices), points=bend(graph.points))
+
+
 @given(st.integers(0, 999), st.floats(0, 6.28), st.floats(-500, 500))
 @settings(max_examples=10)
 def test_turning_and_moving_the_page_changes_nothing(
     scribble: Scribble, seed: int, angle: float, shift: float
 ) -> None:
-    graph, _ = scribble(seed)
+    graph = _warped(scribble(seed)[0])
     turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
     moved = replace(
         graph,
@@ -52,9 +61,9 @@ def test_turning_and_moving_the_page_changes_nothing(
     )
     before, after = _scores(graph), _scores(moved)
     assert before.keys() == after.keys()
-    # A tie between two turns may flip a rank; nearly all pairs must not notice anything.
-    change = [abs(before[pair] - after[pair]) for pair in before]
-    assert np.mean(np.array(change) < 0.1) > 0.95 if change else True
+    # Rounding may decide a tie between two directions anew; all other pairs notice nothing.
+    change = np.array([abs(before[pair] - after[pair]) for pair in before])
+    assert (change > 0.1).sum() <= 0.1 * len(change)
 
 
 @given(st.integers(0, 999))
