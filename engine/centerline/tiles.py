@@ -1,9 +1,7 @@
 """Tiles: the inked part of a page, cut into rectangles that a network can look at one by one.
 
-White paper is never looked at; memory is bounded by the tile. A tile's answer counts fully inside
-its rectangle and fades to nothing across the border. The fade is the rectangle blurred by a box,
-and rectangles that don't overlap sum to 1: so the answers of all tiles are simply added, and no
-seam can be seen.
+White paper is never looked at; memory is bounded by the tile. Windows overlap: a network sees
+CONTEXT px beyond its tile, more than can change its answer by 1e-4, so there are no seams to hide.
 """
 
 from __future__ import annotations
@@ -19,7 +17,6 @@ from ..values import Array
 BLOCK = 64  # px; tiles begin and end at multiples of it (and of the network's stride)
 CONTEXT = 64  # px that a network sees beyond a tile, so that the tile's size makes no difference
 LARGEST = 1024  # px; longest side of a tile
-_FADE = 8  # px on either side of a tile's border
 _CELL = 16  # px; ink is looked for in cells of this size
 _INK = 0.04  # mean of 3x3 px above which paper counts as inked
 _OVERHEAD = 0.3  # blocks; what the call of a network costs beside its pixels
@@ -27,12 +24,16 @@ _OVERHEAD = 0.3  # blocks; what the call of a network costs beside its pixels
 
 @dataclass(frozen=True)
 class Tile:
-    """Half-open ranges in px: the tile, and the window that the network sees."""
+    """Half-open ranges in px; may reach beyond the page."""
 
     top: int
     left: int
     bottom: int
     right: int
+
+    @property
+    def area(self) -> int:
+        return (self.bottom - self.top) * (self.right - self.left)
 
     def window(self, height: int, width: int) -> tuple[slice, slice]:
         """Rows and columns of the tile and its context, on a page of the given size."""
@@ -40,25 +41,21 @@ class Tile:
         return rows, slice(max(0, self.left - CONTEXT), min(width, self.right + CONTEXT))
 
 
-def plan(ink: Array) -> list[Tile]:
-    """Tiles that cover all ink of a page, (H, W) float32, and as little paper as possible."""
-    height, width = ink.shape
-    active = _active_blocks(ink)
-    tiles = []
-    for top, left, bottom, right in _cover(active, LARGEST // BLOCK):
-        tiles.append(
-            Tile(
-                top * BLOCK,
-                left * BLOCK,
-                min(bottom * BLOCK, height),
-                min(right * BLOCK, width),
-            )
-        )
-    return tiles
+def plan(active: Array) -> list[Tile]:
+    """Tiles that cover all active blocks (2-D bool) and as few others as possible."""
+    boxes = _cover(active, LARGEST // BLOCK)
+    return [Tile(*(BLOCK * edge for edge in box)) for box in boxes]
 
 
-def _active_blocks(ink: Array) -> Array:
-    """Which blocks of BLOCK px hold ink, or have some within _CELL px; 2-D bool."""
+def active_blocks(ink: Array) -> Array:
+    """Which blocks of BLOCK px hold ink, or have some within _CELL px.
+
+    Args:
+        ink: (H, W) float32.
+
+    Returns:
+        (ceil(H / BLOCK), ceil(W / BLOCK)) bool.
+    """
     height, width = ink.shape
     rows, columns = -(-height // _CELL), -(-width // _CELL)
     cells = np.zeros((rows, columns), np.uint8)
@@ -154,38 +151,30 @@ def look(
     maps: list[Array | None],
     tick: Callable[[float], None],
 ) -> None:
-    """Run a network over all tiles of a page and add its answers to the maps.
+    """Run a network over all inked blocks of a page and write its answers into the maps.
 
     Args:
         ink: (H, W) float32.
         infer: (h, w) float32 window -> (C, h, w) float32; any size.
-        maps: C arrays (H, W) float32, zero; None = not wanted.
+        maps: C arrays (H, W) float32, zero, and left so on white paper; None = not wanted.
         tick: called with the fraction that is done; what it raises passes through.
     """
-    height, width = ink.shape
-    tiles = plan(ink)
-    total = sum((t.bottom - t.top) * (t.right - t.left) for t in tiles)
+    active = active_blocks(ink)
+    tiles = plan(active)
+    total = sum(tile.area for tile in tiles)
     done = 0
     for tile in tiles:
         tick(done / total)
-        rows, columns = tile.window(height, width)
-        seen = infer(np.ascontiguousarray(ink[rows, columns]))
-        down = _fade(tile.top, tile.bottom, rows, height)
-        across = _fade(tile.left, tile.right, columns, width)
-        weight = down[:, None] * across
-        for answer, target in zip(seen, maps, strict=True):
+        rows, columns = tile.window(*ink.shape)
+        answers = infer(np.ascontiguousarray(ink[rows, columns]))
+        inside = ink[tile.top : tile.bottom, tile.left : tile.right].shape
+        y, x = tile.top - rows.start, tile.left - columns.start
+        row = np.arange(tile.top, tile.top + inside[0]) // BLOCK
+        column = np.arange(tile.left, tile.left + inside[1]) // BLOCK
+        inked = active[row[:, None], column]
+        for answer, target in zip(answers, maps, strict=True):
             if target is not None:
-                target[rows, columns] += answer * weight
-        done += (tile.bottom - tile.top) * (tile.right - tile.left)
+                seen = answer[y : y + inside[0], x : x + inside[1]]
+                target[tile.top : tile.bottom, tile.left : tile.right] = seen * inked
+        done += tile.area
     tick(1.0)
-
-
-def _fade(start: int, stop: int, window: slice, length: int) -> Array:
-    """Weights along one axis of a window: 1 inside start..stop, a ramp at borders in the page."""
-    center = np.arange(window.start, window.stop) + 0.5
-    weight = np.ones(len(center), np.float32)
-    if start > 0:
-        weight *= np.clip((center - start) / (2 * _FADE) + 0.5, 0, 1)
-    if stop < length:
-        weight *= np.clip((stop - center) / (2 * _FADE) + 0.5, 0, 1)
-    return weight.astype(np.float32)
