@@ -1,8 +1,4 @@
-"""The few inks of a page: every stroke takes the exact colour of one of them.
-
-A pixel of a thin line is ink mixed with paper. Its optical density (-log of the reflectance) is a
-multiple of the ink's own, so that inks differ in the direction of their density, not in its size.
-"""
+"""The few inks of a page: every stroke takes the exact colour of one of them."""
 
 from __future__ import annotations
 
@@ -10,11 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..tint import density, tint
 from ..values import PlanarGraph
 
 Array = np.ndarray
 
-_NEUTRAL = 0.3  # how far a density may be from grey, relative to its size, and still be black ink
+_NEUTRAL = 0.3  # greatest chroma of black ink
 _BLACK = 110.0  # grey value below which a neutral ink is simply black
 _HUES = 36  # bins round the colour circle
 _SMALLEST = 8.0  # pen widths of line that an ink of its own must have
@@ -42,11 +39,7 @@ class Inks:
         if graph.colors is None or graph.branch_count == 0:
             return cls.black(graph.branch_count)
         color = _branch_colors(graph)
-        density = -np.log((color + 8.0) / 263.0)
-        size = density.mean(1)
-        tint = density / np.maximum(size, 0.05)[:, None] - 1.0
-        # Two axes across the grey axis.
-        across = tint @ np.array([[2.0, -1.0, -1.0], [0.0, 3.0**0.5, -(3.0**0.5)]]).T / 6.0**0.5
+        across = tint(color)
         chroma, hue = np.hypot(*across.T), np.arctan2(across[:, 1], across[:, 0])
         weight = length + 1e-6
         peaks = _hue_peaks(hue, np.where(chroma > _NEUTRAL, weight, 0.0), _SMALLEST * pen)
@@ -66,9 +59,8 @@ class Inks:
 
 
 def _branch_colors(graph: PlanarGraph) -> Array:
-    """The mean colour of each branch where its ink is strongest: (B, 3) float."""
-    strength = np.ones(len(graph.points)) if graph.strength is None else graph.strength
-    weight = np.asarray(strength, np.float64) ** 4 + 1e-6
+    """The mean colour of each branch where it is darkest: (B, 3) float."""
+    weight = density(graph.colors).mean(1) ** 4 + 1e-6
     start = graph.offsets[:-1]
     total = np.add.reduceat(graph.colors * weight[:, None], start, axis=0)
     return total / np.add.reduceat(weight, start)[:, None]

@@ -16,7 +16,7 @@ from .inks import Inks
 Array = np.ndarray
 
 SAMPLES_PER_PEN = 4  # samples along a line of one pen width
-_BLOB = 1.0  # pen widths around a junction in which the ink of other lines spoils width and colour
+_BLOB = 1.0  # pen widths around a junction where other lines spoil the width; twice that to be sure
 _UNKNOWN = 4.0  # px
 _FULL_INK = 80  # percentile of strength that counts as opaque
 
@@ -74,7 +74,8 @@ class Page:
         t = np.clip((along - arc[low]) / gap, 0.0, 1.0)
 
         def at(values: Array) -> Array:
-            values = values.astype(np.float64).reshape(len(values), -1)
+            values = np.asarray(values, np.float64)
+            values = values if values.ndim == 2 else values[:, None]
             return values[low] + t[:, None] * (values[low + 1] - values[low])
 
         near = np.where(
@@ -91,7 +92,7 @@ class Page:
             offsets=offsets,
             widths=at(widths)[:, 0],
             opacity=np.clip(at(strength)[:, 0] / full, 0.0, 1.0),
-            trust=np.clip(near / (_BLOB * pen) - 0.5, 0.0, 1.0),
+            trust=np.clip(near / (_BLOB * pen) - 1.0, 0.0, 1.0),
             length=length,
             lonely=free | (graph.degrees[graph.ends] == 2).all(1),
             inks=Inks.of(graph, length, pen) if settings.inks else Inks.black(graph.branch_count),

@@ -16,6 +16,7 @@ Array = np.ndarray
 WIDEST = 2.5  # pen widths; sigma at smoothing 1
 _JOINT = 0.8  # pen widths; least sigma where a stroke runs through a junction
 _JOINT_REACH = 2.0  # pen widths from the junction over which that holds
+_PULL = 4.0  # pen widths around a junction that follow it back to its place
 _CORNER_ARM = 1.5  # pen widths of line on both sides of a corner that are looked at
 _CORNER = np.radians(38.0)  # least turn of a corner over the whole arm
 _SUDDEN = 0.7  # share of that turn that must be there over half of the arm: 0.5 on a circle
@@ -27,7 +28,10 @@ def margin(smoothing: float) -> int:
 
 
 def corners(points: Array, lines: Lines) -> Array:
-    """(N,) bool: where the line turns suddenly, and the first and last sample of each run."""
+    """(N,) bool: where the line turns suddenly, and the first and last sample of each run.
+
+    A corner turns as much over a short stretch as over a long one; a tight curve doesn't.
+    """
     place = np.arange(len(points))
     arm = round(_CORNER_ARM * SAMPLES_PER_PEN)
     wide, near = (_turn(points, lines, a) for a in (arm, arm // 2))
@@ -37,6 +41,11 @@ def corners(points: Array, lines: Lines) -> Array:
     for k in range(1, arm + 1):
         best &= strength >= strength[np.minimum(place + k, lines.last)]
         best &= strength > strength[np.maximum(place - k, lines.first)] * (place - k >= lines.first)
+    # A corner right beside a junction is the junction: the raster has moved one of them.
+    for k in range(arm // 2, 0, -1):
+        for other in (np.minimum(place + k, lines.last), np.maximum(place - k, lines.first)):
+            moved = best & lines.joint[other] & ~lines.joint
+            best[other[moved]], best[moved] = True, False
     return best | (place == lines.first) | (place == lines.last)
 
 
@@ -68,7 +77,7 @@ def smooth(points: Array, lines: Lines, corner: Array, smoothing: float) -> Arra
     wanted += share[:, None] * (calm - wanted)
 
     # Bring the junctions back to where they were, and the line around them with them.
-    reach = max(_JOINT_REACH, smoothing * WIDEST * 1.5) * SAMPLES_PER_PEN
+    reach = max(_PULL, smoothing * WIDEST * 1.5) * SAMPLES_PER_PEN
     return wanted + _pull(place, stops, points[stops] - wanted[stops], reach)
 
 

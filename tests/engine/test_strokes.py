@@ -1,0 +1,280 @@
+"""Strokes: every branch once, smooth through junctions, sharp at corners, few points."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import given
+from hypothesis import strategies as st
+from involute.engine import Settings
+from involute.engine.strokes import Page, build, walk
+from involute.engine.strokes.simplify import simplify
+from involute.engine.values import PlanarGraph, Stroke
+from involute.training.routing.planar import graph_from_strokes
+
+SHARP = Settings(smoothing=0.0, tolerance=0.0, min_length=0.0)
+
+
+def _drawn(graph: PlanarGraph, partner: np.ndarray, settings: Settings) -> list[Stroke]:
+    return build(Page.of(graph, settings), walk(partner))
+
+
+def _one(strokes: list[np.ndarray], settings: Settings, width: float = 4.0) -> list[Stroke]:
+    graph, partner = graph_from_strokes(strokes, widths=[width] * len(strokes))
+    return _drawn(graph, partner, settings)
+
+
+def _circle(radius: float, noise: float = 0.0, seed: int = 0) -> np.ndarray:
+    t = np.linspace(0, 2 * np.pi, max(16, int(4 * radius)))
+    points = 100 + radius * np.stack([np.cos(t), np.sin(t)], 1)
+    points += np.random.default_rng(seed).normal(0, noise, points.shape)
+    points[-1] = points[0]
+    return points
+
+
+def _outline(stroke: Stroke) -> np.ndarray:
+    """The stroke as a dense polyline, closed strokes with their first point again."""
+    points = stroke.points.astype(float)
+    if stroke.closed:
+        points = np.vstack([points, points[:1]])
+    if stroke.handles is None:
+        return points
+    t = np.linspace(0, 1, 60)[:, None]
+    pieces = []
+    for i in range(len(points) - 1):
+        a, d = points[i], points[i + 1]
+        b, c = stroke.handles[i, 1], stroke.handles[(i + 1) % len(stroke.points), 0]
+        pieces.append(
+            (1 - t) ** 3 * a + 3 * t * (1 - t) ** 2 * b + 3 * t**2 * (1 - t) * c + t**3 * d
+        )
+    return np.vstack(pieces)
+
+
+@given(st.integers(0, 500), st.integers(1, 12))
+def test_strokes_partition_the_branches(scribble, seed: int, count: int) -> None:
+    graph, partner = scribble(seed, count)
+    walks = walk(partner)
+    seen = [half >> 1 for w in walks for half in w.halves]
+    assert sorted(seen) == list(range(graph.branch_count))
+    for w in walks:
+        along = zip(w.halves, w.halves[1:] + (w.halves[:1] if w.closed else ()), strict=False)
+        assert all(partner[a ^ 1] == b for a, b in along)
+        if not w.closed:
+            assert partner[w.halves[0]] == w.halves[0]
+            assert partner[w.halves[-1] ^ 1] == w.halves[-1] ^ 1
+
+
+@given(st.integers(0, 500))
+def test_walking_some_branches_gives_their_strokes(scribble, seed: int) -> None:
+    graph, partner = scribble(seed)
+    some = range(0, graph.branch_count, 3)
+    expected = [w for w in walk(partner) if any(h >> 1 in some for h in w.halves)]
+    assert walk(partner, some) == expected
+
+
+@given(
+    st.integers(0, 300), st.sampled_from([0.0, 0.3, 1.0]), st.sampled_from(["polyline", "bezier"])
+)
+def test_strokes_run_through_their_vertices(scribble, seed: int, smoothing: float, curve) -> None:
+    graph, partner = scribble(seed)
+    settings = Settings(smoothing=smoothing, curve=curve, min_length=0.0)
+    for stroke in _drawn(graph, partner, settings):
+        vertices = graph.vertices[graph.half_vertex[stroke.branches]]
+        away = np.abs(stroke.points[:, None] - vertices[None]).max(-1).min(0)
+        assert away.max() < 1e-3
+        assert len(stroke.points) == len(stroke.widths) == len(stroke.opacity) >= 2
+        assert np.isfinite(stroke.points).all()
+        assert (stroke.widths > 0).all()
+        assert ((stroke.opacity >= 0) & (stroke.opacity <= 1)).all()
+
+
+@given(st.integers(0, 200))
+def test_a_stroke_does_not_depend_on_the_others(scribble, seed: int) -> None:
+    graph, partner = scribble(seed)
+    page = Page.of(graph, Settings(min_length=0.0))
+    walks = walk(partner)
+    together = build(page, walks)
+    for w, stroke in zip(walks, together, strict=True):
+        (alone,) = build(page, [w])
+        assert alone.closed == stroke.closed
+        np.testing.assert_array_equal(alone.points, stroke.points)
+        np.testing.assert_array_equal(alone.widths, stroke.widths)
+
+
+@given(st.integers(0, 200), st.floats(0.05, 2.0))
+def test_simplified_strokes_stay_within_the_tolerance(
+    scribble, seed: int, tolerance: float
+) -> None:
+    graph, partner = scribble(seed)
+    fine = _drawn(graph, partner, SHARP)
+    coarse = _drawn(graph, partner, replace(SHARP, tolerance=tolerance))
+    for a, b in zip(fine, coarse, strict=True):
+        line = shapely.LineString(_outline(b))
+        assert shapely.distance(shapely.points(a.points), line).max() <= tolerance + 1e-3
+        assert len(b.points) <= len(a.points)
+
+
+@given(st.integers(0, 200), st.floats(0.1, 2.0))
+def test_curves_stay_within_the_tolerance(scribble, seed: int, tolerance: float) -> None:
+    graph, partner = scribble(seed)
+    settings = replace(SHARP, tolerance=tolerance, smoothing=0.3)
+    fine = _drawn(graph, partner, replace(settings, tolerance=0.0))
+    curves = _drawn(graph, partner, replace(settings, curve="bezier"))
+    for a, b in zip(fine, curves, strict=True):
+        assert b.handles.shape == (len(b.points), 2, 2)
+        line = shapely.LineString(_outline(b))
+        assert shapely.distance(shapely.points(a.points), line).max() <= tolerance + 0.05
+
+
+def test_a_line_through_a_crossing_has_no_kink() -> None:
+    x = np.linspace(0, 200, 100)
+    bent = np.stack([x, 100 + 1.2 * np.exp(-(((x - 100) / 3) ** 2))], 1)  # drawn to the blob
+    strokes = _one([bent, np.array([[100.0, 20], [100, 180]])], Settings())
+    line = max(strokes, key=lambda s: np.ptp(s.points[:, 0]))
+    step = np.diff(line.points, axis=0)
+    heading = np.arctan2(step[:, 1], step[:, 0])
+    assert np.degrees(np.abs(np.diff(heading))).max() < 15
+
+
+def test_a_corner_stays_sharp() -> None:
+    corner = np.array([[20.0, 20], [100, 20], [100, 120]])
+    for settings in (Settings(), Settings(smoothing=1.0), Settings(curve="bezier")):
+        (stroke,) = _one([corner], settings)
+        assert np.hypot(*(stroke.points - [100, 20]).T).min() < 0.3
+        assert len(stroke.points) == 3
+
+
+def test_a_corner_at_a_junction_stays_sharp() -> None:
+    corner = np.array([[20.0, 100], [100, 100], [100, 180]])
+    graph, _ = graph_from_strokes([corner, np.array([[100.0, 100], [170, 40]])], widths=[4.0, 4.0])
+    partner = np.arange(6)
+    ends = {tuple(np.round(graph.points[graph.offsets[b]])): 2 * b for b in range(3)}
+    ends.update(
+        {tuple(np.round(graph.points[graph.offsets[b + 1] - 1])): 2 * b + 1 for b in range(3)}
+    )
+    a, b = ends[20, 100] ^ 1, ends[100, 180] ^ 1
+    partner[a], partner[b] = b, a
+    strokes = _drawn(graph, partner, Settings())
+    joined = next(s for s in strokes if len(s.branches) == 2)
+    assert len(joined.points) == 3
+
+
+@pytest.mark.parametrize("radius", [5.0, 20.0, 60.0])
+@pytest.mark.parametrize("curve", ["polyline", "bezier"])
+def test_a_noisy_circle_comes_back_round_and_closed(radius: float, curve) -> None:
+    (stroke,) = _one([_circle(radius, noise=0.15)], Settings(curve=curve), width=3.0)
+    assert stroke.closed
+    away = np.hypot(*(_outline(stroke) - 100).T)
+    assert np.abs(away - radius).max() < 0.4
+    assert len(stroke.points) < 12 * np.sqrt(radius)
+
+
+def test_smoothing_does_not_shrink_a_circle() -> None:
+    for smoothing in (0.3, 0.6, 1.0):
+        (stroke,) = _one([_circle(30.0)], Settings(smoothing=smoothing, tolerance=0.05))
+        away = np.hypot(*(stroke.points - 100).T)
+        assert away.mean() == pytest.approx(30.0, abs=0.3)
+
+
+def test_more_smoothing_gives_a_calmer_line() -> None:
+    rng = np.random.default_rng(3)
+    wobbly = np.stack([np.linspace(0, 300, 200), 100 + rng.normal(0, 0.6, 200)], 1)
+    rough = [np.ptp(_one([wobbly], Settings(smoothing=s))[0].points[5:-5, 1]) for s in (0, 0.3, 1)]
+    assert rough[0] > 1.3 * rough[1] > 1.5 * rough[2]
+
+
+def test_widths_do_not_swell_at_junctions() -> None:
+    graph, partner = graph_from_strokes(
+        [np.array([[0.0, 100], [200, 100]]), np.array([[100.0, 0], [100, 200]])], widths=[4.0, 4.0]
+    )
+    graph = _dense(graph)
+    near = np.hypot(*(graph.points - [100, 100]).T) < 4
+    blob = replace(graph, widths=np.where(near, 9.0, 4.0).astype(np.float32))
+    for stroke in _drawn(blob, partner, Settings(tolerance=0.0)):
+        assert np.abs(stroke.widths - 4).max() < 0.5
+
+
+def _dense(graph: PlanarGraph) -> PlanarGraph:
+    """The same graph with a point every pixel."""
+    lines = []
+    for b in range(graph.branch_count):
+        line = shapely.segmentize(shapely.LineString(graph.branch(b)), 1.0)
+        lines.append(shapely.get_coordinates(line).astype(np.float32))
+    offsets = np.concatenate([[0], np.cumsum([len(line) for line in lines])]).astype(np.int32)
+    return PlanarGraph(graph.vertices, np.concatenate(lines), offsets, graph.ends)
+
+
+def test_pressure_keeps_its_points() -> None:
+    x = np.linspace(0, 200, 201)
+    line = PlanarGraph(
+        np.array([[0, 50], [200, 50]], np.float32),
+        np.stack([x, np.full(201, 50.0)], 1).astype(np.float32),
+        np.array([0, 201], np.int32),
+        np.array([[0, 1]], np.int32),
+        widths=(2 + 6 * np.sin(np.pi * x / 200) ** 2).astype(np.float32),
+    )
+    (stroke,) = _drawn(line, np.arange(2), Settings())
+    assert 5 <= len(stroke.points) <= 40
+    wide = np.interp(x, stroke.points[:, 0], stroke.widths)
+    assert np.abs(wide - line.widths).max() < 0.8
+
+
+def test_one_ink_is_one_colour() -> None:
+    rng = np.random.default_rng(0)
+    strokes = [np.array([[10.0, 20 * k], [190, 20 * k + 5]]) for k in range(1, 10)]
+    inks = [(200, 30, 40), (25, 22, 20), (40, 60, 180)]
+    graph, partner = graph_from_strokes(strokes, widths=[3.0] * 9, strength=[0.9] * 9)
+    graph = _dense(graph)
+    of_branch = np.arange(graph.branch_count) % 3
+    true = np.array(inks)[np.repeat(of_branch, np.diff(graph.offsets))]
+    # Thin lines mix with the paper, by a different share at every point.
+    share = rng.uniform(0.5, 1.0, (len(true), 1))
+    seen = 255 - share * (255 - true) + rng.normal(0, 6, true.shape)
+    graph = replace(
+        graph,
+        colors=np.clip(seen, 0, 255).astype(np.uint8),
+        widths=np.full(len(true), 3.0, np.float32),
+    )
+    strokes = _drawn(graph, partner, Settings())
+    found = {tuple(s.color) for s in strokes}
+    assert len(found) == 3
+    assert (0, 0, 0) in found
+    for stroke in strokes:
+        ink = np.array(inks[of_branch[stroke.branches[0] >> 1]])
+        assert np.abs(np.array(stroke.color) - ink).max() < 50
+    assert {s.color for s in _drawn(graph, partner, Settings(inks=False))} == {(0, 0, 0)}
+
+
+def test_dust_goes_and_dots_stay() -> None:
+    dust, dot = np.array([[50.0, 50], [51.5, 50]]), np.array([[90.0, 90], [91.5, 90]])
+    line = np.array([[10.0, 150], [190, 150]])
+    graph, partner = graph_from_strokes([dust, dot, line])
+    widths = np.repeat([2.0, 7.0, 4.0], np.diff(graph.offsets)).astype(np.float32)
+    graph = replace(graph, widths=widths)
+    kept = _drawn(graph, partner, Settings())
+    assert sorted(round(float(s.widths.mean())) for s in kept) == [4, 7]
+    assert len(_drawn(graph, partner, Settings(min_length=0.0))) == 3
+
+
+def test_short_strokes_that_hang_on_something_stay() -> None:
+    strokes = [np.array([[0.0, 50], [100, 50]]), np.array([[50.0, 50], [50, 52.5]])]
+    assert len(_one(strokes, Settings(min_length=5.0))) == 2
+
+
+def test_a_blank_page_has_no_strokes() -> None:
+    assert _drawn(PlanarGraph.empty(), np.zeros(0, np.int32), Settings()) == []
+
+
+@given(st.integers(0, 10_000), st.floats(0.01, 3))
+def test_simplify_keeps_within_tolerance_and_what_it_must(seed: int, tolerance: float) -> None:
+    rng = np.random.default_rng(seed)
+    points = np.cumsum(rng.normal(0, 1, (200, 2)), 0)
+    keep = np.zeros(200, bool)
+    keep[[0, 70, 199]] = True
+    kept = simplify(points, keep, tolerance)
+    assert kept[[0, 70, 199]].all()
+    line = shapely.LineString(points[kept])
+    assert shapely.distance(shapely.points(points), line).max() <= tolerance + 1e-9
