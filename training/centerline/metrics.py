@@ -46,9 +46,10 @@ def _matched(found: Array, truth: Array, within: float) -> tuple[int, int]:
     return int(to_truth.sum()), int(to_found.sum())
 
 
-def page_figures(seen: Array, truth: Array) -> dict[str, float]:
-    """Counts and sums of one page; seen, truth: (5, H, W) in [0, 1], channels as model.HEADS."""
-    mine, true = ridge_points(seen[0]), ridge_points(truth[0], 0.6)
+def page_figures(seen: Array, truth: Array, level: float = 0.4) -> dict[str, float]:
+    """Counts and sums of one page; seen, truth: (5, H, W) in [0, 1], channels as model.HEADS;
+    level: above which a crest counts as a line."""
+    mine, true = ridge_points(seen[0], level), ridge_points(truth[0], 0.6)
     out: dict[str, float] = {"mine": len(mine), "true": len(true)}
     out["mine_ok"], out["true_ok"] = _matched(mine, true, 1.5)
     out["distance"] = out["distance_n"] = 0.0
