@@ -1,0 +1,165 @@
+"""Training of the centerline network: pages tell the truth, runs resume, exports agree."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+torch = pytest.importorskip("torch")
+
+from involute.engine.centerline import onnx_torch  # noqa: E402
+from involute.engine.centerline.backends import load  # noqa: E402
+from involute.training.centerline import geometry, losses, media, metrics  # noqa: E402
+from involute.training.centerline.data import Pages, split  # noqa: E402
+from involute.training.centerline.export import export, worst_difference  # noqa: E402
+from involute.training.centerline.geometry import Library  # noqa: E402
+from involute.training.centerline.model import STRIDE, CenterlineNet, Exported  # noqa: E402
+from involute.training.centerline.sample import CHANNELS, page  # noqa: E402
+from involute.training.centerline.targets import targets  # noqa: E402
+from involute.training.centerline.train import main as train  # noqa: E402
+
+
+@pytest.fixture(scope="session")
+def drawings(tmp_path_factory) -> Path:
+    """A folder with forty little drawings in the format of the training data."""
+    rng = np.random.default_rng(4)
+    strokes, per_drawing = [], []
+    for _ in range(40):
+        made = [geometry._spline(rng, 900) for _ in range(rng.integers(1, 5))]
+        strokes += made
+        per_drawing.append(len(made))
+    folder = tmp_path_factory.mktemp("drawings")
+    np.savez(
+        folder / "quickdraw_raw.npz",
+        points=np.clip(np.concatenate(strokes) * 32, 0, 65535).astype(np.uint16),
+        scale=1 / 32,
+        stroke_offsets=np.cumsum([0] + [len(s) for s in strokes]),
+        drawing_offsets=np.cumsum([0, *per_drawing]),
+    )
+    return folder
+
+
+def line(x0: float, y0: float, x1: float, y1: float) -> np.ndarray:
+    return np.linspace((x0, y0), (x1, y1), 20).astype(np.float32)
+
+
+def maps_of(*strokes: np.ndarray, size: int = 96):
+    samples = media.sample(list(strokes), size)
+    return targets(samples, np.full(len(samples), 2.0), size)
+
+
+def test_crest_of_the_target_is_the_true_line():
+    maps = maps_of(line(5, 40.3, 90, 40.3))
+    before, at, after = np.log(maps.centerline[39:42, 50])
+    crest = 40.5 + 0.5 * (before - after) / (before + after - 2 * at)
+    assert crest == pytest.approx(40.3, abs=0.05)
+    assert maps.half_width[40, 50] == pytest.approx(2.0)
+
+
+def test_crossing_touch_and_free_ends():
+    maps = maps_of(
+        line(10, 20, 80, 20),  # crossed by the next,
+        line(45.5, 5, 45.5, 60),
+        line(20.5, 20.5, 20.5, 70),  # touches the first,
+        line(45.5, 60, 80, 75),  # a corner with the second
+    )
+    junctions = metrics.peaks(maps.junctions, 0.6)
+    ends = metrics.peaks(maps.endpoints, 0.6)
+    np.testing.assert_allclose(sorted(map(tuple, junctions)), [(20.5, 20), (45.5, 20)], atol=0.5)
+    wanted = [(10, 20), (20, 70), (45, 5), (80, 20), (80, 75)]
+    near = [min(np.hypot(*(e - (x, y))) for e in ends) for x, y in wanted]
+    assert max(near) < 1.5
+    assert len(ends) == len(wanted)
+
+
+def test_three_ends_meet_in_a_junction_two_do_not():
+    three = maps_of(line(48, 48, 10, 10), line(48, 48, 85, 20), line(48, 48, 40, 90))
+    assert len(metrics.peaks(three.junctions, 0.6)) == 1
+    two = maps_of(line(48, 48, 10, 10), line(48, 48, 85, 20))
+    assert not len(metrics.peaks(two.junctions, 0.6))
+    assert len(metrics.peaks(two.endpoints, 0.6)) == 2
+
+
+@pytest.mark.parametrize("gap", [3.0, 4.0, 6.0])
+def test_near_lines_keep_a_valley(gap):
+    maps = maps_of(line(5, 40, 90, 40), line(5, 40 + gap, 90, 40 + gap))
+    across = maps.centerline[36:50, 48]
+    crests = (across[1:-1] > across[:-2]) & (across[1:-1] >= across[2:]) & (across[1:-1] > 0.5)
+    assert crests.sum() == 2
+
+
+def test_width_of_the_ink_is_the_pen_s():
+    samples = media.sample([line(10, 48, 86, 48)], 96)
+    pen = media.Medium((6.0, 6.0), density=(1.0, 1.0), fade=(0, 0), swell=(0, 0), ragged=(0, 0))
+    ink, half = media.draw(np.random.default_rng(1), samples, pen, 6.0, 96)
+    assert ink[:, 48].sum() == pytest.approx(6.0, abs=0.1)
+    assert half == pytest.approx(3.0)
+
+
+def test_a_page_repeats_and_fills_its_channels(drawings):
+    library = Library.load(drawings)
+    first = page(np.random.default_rng(6), library, 128)
+    again = page(np.random.default_rng(6), library, 128)
+    assert first.shape == (len(CHANNELS), 128, 128)
+    assert first.dtype == np.uint8
+    np.testing.assert_array_equal(first, again)
+
+
+@pytest.mark.parametrize("medium", list(media.MEDIA))
+def test_every_medium_draws_where_its_target_says(drawings, medium):
+    library = Library.load(drawings)
+    pages = [page(np.random.default_rng((k, 3)), library, 160, only=medium) for k in range(6)]
+    ink = np.concatenate([p[0].ravel() for p in pages]).astype(float)
+    line = np.concatenate([p[1].ravel() for p in pages])
+    assert ink[line > 200].mean() > 3 * ink[line == 0].mean()
+
+
+def test_held_out_drawings_are_never_trained_on(drawings):
+    library = Library.load(drawings)
+    rng = np.random.default_rng(0)
+
+    def picked(held_out: bool) -> set[bytes]:
+        return {library.pick(rng, held_out)[0].tobytes() for _ in range(200)}
+
+    assert not picked(True) & picked(False)
+
+
+def test_every_loss_prefers_the_truth(drawings):
+    batch = next(iter(Pages(drawings, 2, 64, 0.5, 1, keep=4)))
+    _, truth = split(batch)
+    right = torch.logit(truth.clamp(0.01, 0.99))
+    for name in losses.CENTERLINE_LOSSES:
+        good = losses.total_loss(right, truth, name)["total"]
+        assert good < losses.total_loss(right.roll(3, -1), truth, name)["total"]
+        assert good < losses.total_loss(torch.full_like(right, -4), truth, name)["total"]
+
+
+def test_a_run_stops_resumes_and_is_recorded(drawings, tmp_path):
+    options = ["--data", str(drawings), "--run", str(tmp_path), "--workers", "0", "--batch", "1"]
+    options += ["--crop", "64", "--widths", "4", "8", "--every", "2"]
+    train([*options, "--steps", "4", "--stop-after", "0"])
+    halfway = torch.load(tmp_path / "checkpoint.pt")["step"]
+    train([*options, "--steps", "4"])
+    assert halfway < torch.load(tmp_path / "checkpoint.pt")["step"] == 4
+    log = [json.loads(row) for row in (tmp_path / "log.jsonl").read_text().splitlines()]
+    assert [row["step"] for row in log] == [2, 4]
+    config = json.loads((tmp_path / "config.json").read_text())
+    assert config["data_sha256"]
+    assert config["seed"] == 1
+
+
+def test_opencv_and_both_torch_forms_agree(tmp_path):
+    torch.manual_seed(3)
+    net = CenterlineNet((4, 8, 12)).eval()
+    out = tmp_path / "small.onnx"
+    export(net, out)
+    assert worst_difference(net, out) < 1e-3
+    ink = np.random.default_rng(0).random((5 * STRIDE, 3 * STRIDE), np.float32)
+    with torch.inference_mode():
+        given = torch.from_numpy(ink[None, None])
+        read = onnx_torch.module(out.read_bytes())(given)
+        assert (read - Exported(net)(given)).abs().max() < 1e-5
+    np.testing.assert_allclose(load(out, "cpu")(ink), read[0].numpy(), atol=1e-3)
