@@ -82,7 +82,7 @@ def _started_like(stroke: Stroke, old: Stroke, share: float) -> Stroke:
     around = np.vstack([stroke.points, stroke.points[:1]])
     along = np.concatenate([[0], np.cumsum(np.hypot(*np.diff(around, axis=0).T))])
     off = np.abs((along[:-1] / along[-1] - share + 0.5) % 1.0 - 0.5)
-    start = old.points[0] + stroke.points.mean(axis=0) - old.points.mean(axis=0)
+    start = old.points[0] + _middle(stroke) - _middle(old)
     there = np.hypot(*(stroke.points - start).T) / along[-1]
     first = int(np.where(off <= max(off.min(), 1 / SAMPLES), there, np.inf).argmin())
     return _reordered(stroke, np.roll(np.arange(len(stroke.points)), -first))
@@ -113,15 +113,20 @@ def _numbers(old: Sequence[Stroke], new: Sequence[Stroke], matches: Matches) -> 
         waiting = sorted((k for k in here if numbers[k] < 0), key=lambda k: -_length(new[k]))
         free = sorted(set(range(len(here))) - {int(numbers[k]) for k in here})
         inherited = np.array([n for n in free if n < len(before)], int)
-        there = np.array([old[before[n]].points.mean(axis=0) for n in inherited]).reshape(-1, 2)
+        there = np.array([_middle(old[before[n]]) for n in inherited]).reshape(-1, 2)
         for k in [k for k in waiting if k not in mates][: len(inherited)]:
-            nearest = int(np.hypot(*(there - new[k].points.mean(axis=0)).T).argmin())
+            nearest = int(np.hypot(*(there - _middle(new[k])).T).argmin())
             numbers[k] = inherited[nearest]
             inherited, there = (np.delete(a, nearest, axis=0) for a in (inherited, there))
         free = sorted(set(free) - {int(numbers[k]) for k in here})
         waiting = [k for k in waiting if numbers[k] < 0]
         numbers[waiting] = free
     return numbers
+
+
+def _middle(stroke: Stroke) -> Array:
+    """The middle of its box, which does not depend on where its points lie densely."""
+    return 0.5 * (stroke.points.min(axis=0) + stroke.points.max(axis=0))
 
 
 def _length(stroke: Stroke) -> float:
