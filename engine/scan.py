@@ -229,9 +229,9 @@ def _line_widths(ink: Array) -> Array:
     middle = (dark > 0) & (distance >= cv2.dilate(distance, np.ones((3, 3), np.uint8)))
     _, label, stats, _ = cv2.connectedComponentsWithStats(dark)
     extent = np.hypot(stats[:, cv2.CC_STAT_WIDTH], stats[:, cv2.CC_STAT_HEIGHT])
-    widths, owner = distance[middle] - 0.5, label[middle]
+    widths, owner = distance[middle], label[middle]
     widths = widths[extent[owner] > np.maximum(12.0, 6.0 * widths)]
-    return np.sqrt(np.maximum(widths**2 - 2.7, 1.0))  # less what the blur has added
+    return np.sqrt(np.maximum(widths**2 - 3.0, 1.0))  # less what the blur has added
 
 
 def _working_scale(pen: float, width: int, height: int) -> float:
