@@ -1,6 +1,6 @@
 """How half-branches leave their junction, and how well two of them would make one line.
 
-All lengths are in units of the pen width, so that the numbers mean the same on every scan.
+All lengths are in pen widths, so that the numbers mean the same on every scan.
 """
 
 from __future__ import annotations
@@ -9,111 +9,210 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..tint import tint
 from ..values import PlanarGraph
 
 Array = np.ndarray
 
 DEFAULT_WIDTH = 4.0  # px; for graphs whose widths were not measured
-_SKIP = 0.6  # pen widths next to the junction that are not looked at: there the lines run together
-_REACH = 3.5  # pen widths up to where the direction is fitted
+# Stretches of a half-branch, in pen widths from its junction. Right at the junction lines run
+# together, so that nothing can be seen there.
+_NEAR = (0.5, 2.5)
+_MIDDLE = (0.6, 4.0)
+_FAR = (1.0, 9.0)
 _SAMPLES = 8
+_KNOTS = (0.2, 0.6, 1.3)  # radians; where the worth of an angle changes its slope
+_MANY = 5  # half-branches from which on a junction is a cluster and judged by other weights
+
+
+@dataclass(frozen=True, eq=False)
+class Stretch:
+    """The same stretch of every half-branch, seen from its vertex, in pen widths.
+
+    arc: (2B, S) arc lengths; points: (2B, S, 2) positions relative to the vertex.
+    line: (2B, 2) unit direction of the line fitted to it, away from the junction.
+    start: (2B, 2) unit direction at the junction of the parabola fitted to it.
+    """
+
+    arc: Array
+    points: Array
+    line: Array
+    start: Array
 
 
 @dataclass(frozen=True, eq=False)
 class HalfFeatures:
-    """One row per half-branch; directions point away from the junction.
+    """One row per half-branch.
 
-    unit: the pen width of the drawing in px.
-    points: (2B, S, 2) samples along the half-branch, relative to its vertex, in pen widths.
-    arc: (2B, S) how far along they lie, in pen widths.
-    direction: (2B, 2) unit direction in which the line leaves, fitted beyond the blob.
-    curvature: (2B,) signed, per pen width; positive turns right (y down) as seen walking away.
-    length: (2B,) of the whole branch, in pen widths.
-    width, strength: (2B,) medians near the junction, relative width and ink in [0, 1].
-    color: (2B, 3) in [0, 1].
+    length: (2B,) of the whole branch in pen widths.
+    width: (2B,) in pen widths; strength: (2B,) ink in [0, 1]; tint: (2B, 2), see `engine.tint`;
+        each the median of the middle stretch.
     """
 
-    unit: float
-    points: Array
-    arc: Array
-    direction: Array
-    curvature: Array
+    near: Stretch
+    middle: Stretch
+    far: Stretch
     length: Array
     width: Array
     strength: Array
-    color: Array
+    tint: Array
 
 
 def half_features(graph: PlanarGraph) -> HalfFeatures:
-    """Measure every half-branch; total cost linear in points."""
-    unit = pen_width(graph)
-    arc, length = arc_lengths(graph)
-    half_length = np.repeat(length, 2) / unit
-    low = np.minimum(_SKIP, 0.2 * half_length)
-    high = np.minimum(_SKIP + _REACH, half_length)
-    along = low[:, None] + (high - low)[:, None] * np.linspace(0, 1, _SAMPLES)
-    at = _position(graph, arc, length, along * unit)
-    points = _interp(at, graph.points) - graph.vertices[graph.half_vertex][:, None]
-    points = points / unit
+    """Measure every half-branch; the cost is linear in points."""
+    unit = DEFAULT_WIDTH
+    if graph.widths is not None and len(graph.widths):
+        unit = max(float(np.median(graph.widths)), 1e-3)
+    sampler = _Sampler(graph, unit)
+    at = sampler.at(sampler.stretch(*_MIDDLE))
 
-    # One quadratic per half-branch in its own window, by least squares with one shared design.
-    u = np.linspace(-1, 1, _SAMPLES)
-    fit = np.linalg.pinv(np.stack([np.ones_like(u), u, u * u / 2], 1))
-    _, first, second = np.einsum("ks,hsc->khc", fit, points)
-    span = np.maximum((high - low)[:, None] / 2, 1e-6)
-    velocity, bend = first / span, second / span**2
-    speed = np.maximum(np.hypot(*velocity.T), 1e-6)
-    curvature = (velocity[:, 0] * bend[:, 1] - velocity[:, 1] * bend[:, 0]) / speed**3
-
-    def near(values: Array | None, default: float, channels: int = 1) -> Array:
+    def middle(values: Array | None, default: float) -> Array:
         if values is None:
-            return np.full((len(at), channels), default)
-        values = np.asarray(values, np.float64).reshape(len(values), channels)
+            return np.full(len(at), default)
         return np.median(_interp(at, values), axis=1)
 
     return HalfFeatures(
-        unit=unit,
-        points=points,
-        arc=along,
-        direction=velocity / speed[:, None],
-        curvature=curvature,
-        length=half_length,
-        width=near(graph.widths, unit)[:, 0] / unit,
-        strength=near(graph.strength, 1.0)[:, 0],
-        color=near(graph.colors, 0.0, 3) / 255.0,
+        near=_fit(sampler, _NEAR),
+        middle=_fit(sampler, _MIDDLE),
+        far=_fit(sampler, _FAR),
+        length=sampler.length,
+        width=middle(graph.widths, unit) / unit,
+        strength=middle(graph.strength, 1.0),
+        tint=np.zeros((len(at), 2)) if graph.colors is None else tint(middle(graph.colors, 0.0)),
     )
 
 
-def pen_width(graph: PlanarGraph) -> float:
-    """The typical width of a line in px."""
-    if graph.widths is None or not len(graph.widths):
-        return DEFAULT_WIDTH
-    return max(float(np.median(graph.widths)), 1e-3)
+class _Sampler:
+    """Reads half-branches at arc lengths from their vertex."""
 
+    def __init__(self, graph: PlanarGraph, unit: float) -> None:
+        self.graph, self.unit = graph, unit
+        step = np.hypot(*np.diff(graph.points.astype(np.float64), axis=0, append=np.nan).T)
+        # All branches laid end to end, a pixel apart.
+        step[graph.offsets[1:] - 1] = 1.0
+        self._key = np.cumsum(step) - step
+        first, last = self._key[graph.offsets[:-1]], self._key[graph.offsets[1:] - 1]
+        self._origin = np.stack([first, last], 1).ravel()
+        self._forward = np.tile([1.0, -1.0], graph.branch_count)
+        self.length = np.repeat(last - first, 2) / unit
 
-def arc_lengths(graph: PlanarGraph) -> tuple[Array, Array]:
-    """Arc length of every point from the start of its branch (P,), and of every branch (B,)."""
-    step = np.hypot(*np.diff(graph.points.astype(np.float64), axis=0).T)
-    total = np.concatenate([[0.0], np.cumsum(step)])[: len(graph.points)]
-    start = graph.offsets[:-1]
-    size = np.diff(graph.offsets)
-    arc = total - np.repeat(total[start], size)
-    return arc, arc[graph.offsets[1:] - 1]
+    def stretch(self, low: float, high: float) -> Array:
+        """(2B, S) arc lengths in pen widths, moved in where the branch is shorter."""
+        start = np.minimum(low, 0.2 * self.length)[:, None]
+        stop = np.minimum(high, self.length)[:, None]
+        return start + (stop - start) * np.linspace(0, 1, _SAMPLES)
 
+    def at(self, arc: Array) -> Array:
+        """Fractional point numbers (2B, S) at these arc lengths."""
+        key = self._origin[:, None] + self._forward[:, None] * arc * self.unit
+        return np.interp(key, self._key, np.arange(len(self._key), dtype=np.float64))
 
-def _position(graph: PlanarGraph, arc: Array, length: Array, along: Array) -> Array:
-    """Fractional point index at distances `along` (2B, S) px from the start of each half-branch."""
-    margin = np.arange(graph.branch_count) + np.concatenate([[0.0], np.cumsum(length)])[:-1]
-    key = arc + np.repeat(margin, np.diff(graph.offsets))
-    branch = np.arange(len(along)) >> 1
-    backward = (np.arange(len(along)) & 1).astype(bool)[:, None]
-    s = np.where(backward, length[branch][:, None] - along, along) + margin[branch][:, None]
-    at = np.interp(s, key, np.arange(len(key), dtype=np.float64))
-    return np.clip(at, graph.offsets[branch][:, None], graph.offsets[branch + 1][:, None] - 1)
+    def points(self, arc: Array) -> Array:
+        """Positions (2B, S, 2) relative to the vertex, in pen widths."""
+        vertices = self.graph.vertices[self.graph.half_vertex].astype(np.float64)
+        return (_interp(self.at(arc), self.graph.points) - vertices[:, None]) / self.unit
 
 
 def _interp(at: Array, values: Array) -> Array:
-    """Values at fractional indices `at` (...,): (..., C)."""
+    """Values at fractional numbers `at` (...): (...) or (..., C)."""
     low = np.minimum(at.astype(np.int64), max(len(values) - 2, 0))
-    share = (at - low)[..., None]
+    share = at - low
+    share = share if values.ndim == 1 else share[..., None]
     return values[low] * (1 - share) + values[low + 1] * share
+
+
+def _fit(sampler: _Sampler, window: tuple[float, float]) -> Stretch:
+    """Line and parabola by least squares; every half-branch shares one design matrix."""
+    arc = sampler.stretch(*window)
+    points = sampler.points(arc)
+    u = np.linspace(-1, 1, _SAMPLES)
+    line = np.linalg.pinv(np.stack([np.ones_like(u), u], 1))
+    parabola = np.linalg.pinv(np.stack([np.ones_like(u), u, u * u / 2], 1))
+    slope = np.einsum("s,hsc->hc", line[1], points)
+    first, second = np.einsum("ks,hsc->khc", parabola[1:], points)
+    # The junction, in units of u; not further out than a parabola can be trusted.
+    half = np.maximum(arc[:, -1] - arc[:, 0], 1e-6) / 2
+    junction = np.maximum(-(arc[:, -1] + arc[:, 0]) / 2 / half, -2.5)
+    return Stretch(arc, points, _unit(slope), _unit(first + second * junction[:, None]))
+
+
+def _unit(vectors: Array) -> Array:
+    return vectors / np.maximum(np.hypot(*vectors.T), 1e-9)[:, None]
+
+
+def _angle_terms(name: str) -> list[str]:
+    bends = [f"{name} over {k:g}" for k in _KNOTS]
+    return [name, *bends, f"{name}, many", f"{name} over {_KNOTS[1]:g}, many"]
+
+
+FEATURES: tuple[str, ...] = (
+    "join",
+    "join, three",
+    "join, many",
+    *_angle_terms("turn of lines"),
+    *_angle_terms("turn of curves"),
+    *_angle_terms("turn of chords"),
+    "misfit, middle",
+    "misfit, far",
+    "opposite",
+    "opposite, many",
+    "short",
+    "width",
+    "strength",
+    "tint",
+)
+
+
+def pair_features(graph: PlanarGraph, pairs: Array) -> Array:
+    """What speaks for and against joining pairs: (K, F) float64, columns as in `FEATURES`.
+
+    turn: the angle by which the line would turn, between the lines fitted to both sides, between
+        the curves at the junction, and between the chords to both sides.
+    misfit: log of how far one cubic through both sides misses them.
+    opposite: 1 where as many other half-branches lie on one side of the pair as on the other.
+    short: how little of the shorter one there is to see.
+    width, strength, tint: how much the ink differs.
+    three, many: the same again at junctions of three, or of five or more.
+    """
+    half = half_features(graph)
+    a, b = pairs.T
+    degree = graph.degrees[graph.half_vertex[a]]
+    many = degree >= _MANY
+    one = np.ones(len(pairs))
+    columns = [one, one * (degree == 3), one * many]
+    chord = _unit(half.near.points[:, -1])
+    for direction in (half.near.line, half.near.start, chord):
+        turn = np.arccos(np.clip(-(direction[a] * direction[b]).sum(1), -1, 1))
+        over = [np.maximum(turn - k, 0) for k in _KNOTS]
+        columns += [turn, *over, turn * many, over[1] * many]
+    columns += [np.log(_misfit(s, a, b) + 0.02) for s in (half.middle, half.far)]
+    opposite = _opposite(graph, half.middle.start, a, b)
+    columns += [opposite, opposite * many]
+    columns.append(1 / (0.5 + np.minimum(half.length[a], half.length[b])))
+    width = np.abs(np.log((half.width[a] + 0.1) / (half.width[b] + 0.1)))
+    columns.append(np.minimum(width, 1.5))
+    columns.append(np.abs(half.strength[a] - half.strength[b]))
+    columns.append(np.clip(np.hypot(*(half.tint[a] - half.tint[b]).T) - 0.25, 0, 1))
+    return np.stack(columns, 1)
+
+
+def _misfit(stretch: Stretch, a: Array, b: Array) -> Array:
+    """Root mean square distance of both sides from the cubic fitted to them together."""
+    arc = np.concatenate([-stretch.arc[a], stretch.arc[b]], 1)
+    points = np.concatenate([stretch.points[a], stretch.points[b]], 1)
+    t = arc / np.maximum(np.abs(arc).max(1, keepdims=True), 1e-6)
+    design = np.stack([np.ones_like(t), t, t**2, t**3], -1)
+    normal = np.einsum("nsi,nsj->nij", design, design) + 1e-6 * np.eye(4)
+    fitted = design @ np.linalg.solve(normal, np.einsum("nsi,nsc->nic", design, points))
+    return np.sqrt(((points - fitted) ** 2).sum(-1).mean(1))
+
+
+def _opposite(graph: PlanarGraph, direction: Array, a: Array, b: Array) -> Array:
+    """1 = half of the other half-branches lie on either side, 0 = neighbours around the vertex."""
+    vertex = graph.half_vertex
+    order = np.lexsort((np.arctan2(direction[:, 1], direction[:, 0]), vertex))
+    rank = np.empty(len(vertex), np.int64)
+    rank[order] = np.arange(len(vertex))
+    apart = np.abs(rank[a] - rank[b])
+    degree = graph.degrees[vertex[a]]
+    return (np.minimum(apart, degree - apart) - 1) / np.maximum((degree - 2) / 2, 1)
