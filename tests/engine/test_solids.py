@@ -1,0 +1,101 @@
+"""Solid blacks leave the scan as outlines; lines stay lines."""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+import pytest
+from involute.engine import Settings
+from involute.engine.scan import read_scan
+from involute.engine.solids import split_solids
+from involute.engine.values import Scan
+
+SETTINGS = Settings()
+
+
+def scan_of(*shapes, size: tuple[int, int] = (400, 300), pen: float = 3.0) -> Scan:
+    """Filled polygons and (line, width) pairs, anti-aliased, as a flattened page."""
+    fine = np.zeros((size[1] * 8, size[0] * 8), np.uint8)
+    for shape in shapes:
+        outline, color = shape if isinstance(shape, tuple) else (shape, 255)
+        cv2.fillPoly(fine, [np.round(np.asarray(outline) * 8 - 0.5).astype(np.int32)], color)
+    ink = cv2.resize(fine, size, interpolation=cv2.INTER_AREA).astype(np.float32) / 255
+    return Scan(ink, None, 1.0, size, pen)
+
+
+def disc(x: float, y: float, radius: float) -> np.ndarray:
+    angle = np.linspace(0, 2 * np.pi, 200, endpoint=False)
+    return np.stack([x + radius * np.cos(angle), y + radius * np.sin(angle)], 1)
+
+
+def bar(x0: float, y0: float, x1: float, y1: float, width: float) -> np.ndarray:
+    a, b = np.array([x0, y0]), np.array([x1, y1])
+    across = np.array([a[1] - b[1], b[0] - a[0]]) / np.hypot(*(b - a)) * width / 2
+    return np.stack([a + across, b + across, b - across, a - across])
+
+
+def test_a_disc_becomes_a_smooth_outline():
+    _, fills = split_solids(scan_of(disc(203.3, 148.7, 40)), SETTINGS)
+    ((ring,),) = fills
+    radius = np.hypot(*(ring - [203.3, 148.7]).T)
+    assert np.abs(radius - 40).max() < 0.4
+    assert cv2.contourArea(ring) == pytest.approx(np.pi * 40**2, rel=0.01)
+    assert len(ring) < 120
+    assert ring.dtype == np.float32
+
+
+def test_what_is_left_holds_nothing_of_the_area():
+    lines, _ = split_solids(scan_of(disc(200, 150, 40)), SETTINGS)
+    assert lines.ink.max() < 0.05
+
+
+def test_a_line_that_touches_an_area_ends_at_its_border():
+    lines, fills = split_solids(scan_of(disc(200, 150, 40), bar(20, 150, 200, 150, 3)), SETTINGS)
+    assert len(fills) == 1
+    assert lines.ink[150, 25:155].min() > 0.9
+    assert lines.ink[150, 163:].max() < 0.05
+
+
+def test_a_hole_stays_a_hole():
+    _, fills = split_solids(scan_of(disc(200, 150, 60), (disc(215, 150, 20), 0)), SETTINGS)
+    ((outer, hole),) = fills
+    assert np.abs(np.hypot(*(outer - [200, 150]).T) - 60).max() < 0.4
+    assert np.abs(np.hypot(*(hole - [215, 150]).T) - 20).max() < 0.4
+
+
+@pytest.mark.parametrize(
+    "shapes",
+    [
+        [bar(20, 30, 380, 250, 3)],
+        [bar(20, 30, 380, 250, 14)],  # one fat line among thin ones
+        [bar(20, 150, 380, 160, 4), bar(20, 160, 380, 150, 4)],  # a blot at a flat crossing
+        [disc(100, 100, 5)],  # a dot
+    ],
+)
+def test_lines_and_dots_are_no_areas(shapes):
+    scan = scan_of(*shapes)
+    lines, fills = split_solids(scan, SETTINGS)
+    assert fills == []
+    np.testing.assert_array_equal(lines.ink, scan.ink)
+
+
+def test_a_drawing_with_a_marker_has_no_areas(tmp_path):
+    scan = scan_of(bar(30, 40, 370, 60, 22), bar(60, 30, 80, 280, 22), bar(60, 250, 360, 240, 22))
+    page = ((1 - scan.ink) * 255).astype(np.uint8)
+    assert split_solids(read_scan(page, SETTINGS), SETTINGS)[1] == []
+
+
+def test_areas_can_be_kept():
+    scan = scan_of(disc(200, 150, 40))
+    assert split_solids(scan, Settings(solids=False)) == (scan, [])
+    assert split_solids(scan, Settings(provider="given")) == (scan, [])
+
+
+def test_a_blank_page_has_no_areas():
+    assert split_solids(scan_of(), SETTINGS)[1] == []
+
+
+def test_an_area_over_the_border_of_the_page():
+    _, fills = split_solids(scan_of(disc(0, 150, 60)), SETTINGS)
+    ((ring,),) = fills
+    assert cv2.contourArea(ring) == pytest.approx(np.pi * 60**2 / 2, rel=0.03)
