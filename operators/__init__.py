@@ -2,22 +2,43 @@
 
 from __future__ import annotations
 
+from importlib import import_module
+
+_VERBS = (
+    "trace",
+    "import_scan",
+    "reroute",
+    "join",
+    "separate",
+    "lock",
+    "accept",
+    "ask_again",
+    "go_to_junction",
+    "preview",
+    "choose",
+    "drag_join",
+)
+
 
 def _classes() -> list[type]:
-    from . import import_scan, trace, trace_settings
+    from .trace_settings import INVOLUTE_PG_trace_settings
+    from .view_state import INVOLUTE_PG_view
 
-    return [trace_settings.INVOLUTE_PG_trace_settings, *trace.CLASSES, *import_scan.CLASSES]
+    verbs = [import_module(f".{name}", __package__) for name in _VERBS]
+    operators = [cls for verb in verbs for cls in verb.CLASSES]
+    return [INVOLUTE_PG_trace_settings, INVOLUTE_PG_view, *operators]
 
 
 def register() -> None:
     import bpy
 
-    from . import command
-    from .trace_settings import INVOLUTE_PG_trace_settings
+    from . import command, trace_settings, view_state
 
     for cls in _classes():
         bpy.utils.register_class(cls)
-    bpy.types.Scene.involute = bpy.props.PointerProperty(type=INVOLUTE_PG_trace_settings)
+    pointer = bpy.props.PointerProperty
+    bpy.types.Scene.involute = pointer(type=trace_settings.INVOLUTE_PG_trace_settings)
+    bpy.types.WindowManager.involute_view = pointer(type=view_state.INVOLUTE_PG_view)
     command.register()
 
 
@@ -27,6 +48,7 @@ def unregister() -> None:
     from . import command
 
     command.unregister()
+    del bpy.types.WindowManager.involute_view
     del bpy.types.Scene.involute
     for cls in reversed(_classes()):
         bpy.utils.unregister_class(cls)

@@ -14,7 +14,7 @@ drawings, looked up by the hash of their content.
 from __future__ import annotations
 
 import zlib
-from collections import OrderedDict
+from collections import Counter, OrderedDict
 from dataclasses import dataclass, replace
 from hashlib import blake2b
 from typing import TYPE_CHECKING, Any
@@ -23,6 +23,7 @@ import numpy as np
 
 from ..engine import InvoluteError
 from . import grease_pencil as gp
+from .curves import TRACE
 from .placement import Placement
 
 if TYPE_CHECKING:
@@ -49,13 +50,19 @@ class Trace:
 
 def keys_at(data: bpy.types.ID, frame: int) -> list[int]:
     """The traces whose strokes are shown at a frame, those with most strokes first."""
-    columns = [gp.read_column(drawing, gp.TRACE) for _, drawing in gp.drawings_at(data, frame)]
-    columns = [c for c in columns if c is not None]
-    if not columns:
+    if data.get(PROPERTY) is None:
         return []
-    keys, counts = np.unique(np.concatenate(columns), return_counts=True)
+    columns = [gp.read_column(drawing, TRACE) for _, drawing in gp.drawings_at(data, frame)]
+    counts: Counter[int] = Counter()
+    for column in columns:
+        if column is None or not len(column):
+            continue
+        if (column == column[0]).all():  # as nearly always; this runs at every redraw
+            counts[int(column[0])] += len(column)
+        else:
+            counts.update(_counted(column))
     known = _traces(data)
-    return [int(k) for k in keys[np.argsort(-counts, kind="stable")] if k and str(k) in known]
+    return [key for key, _ in counts.most_common() if key and str(key) in known]
 
 
 def load(data: bpy.types.ID, key: int) -> Trace:
@@ -117,15 +124,20 @@ def separate(data: bpy.types.ID, frame: int, trace: Trace) -> Trace:
         return trace
     key = _free_key(data, trace.drawing, f"{trace.source}@{frame}")
     for drawing in here:
-        column = gp.read_column(drawing, gp.TRACE)
+        column = gp.read_column(drawing, TRACE)
         if column is not None and (column == trace.key).any():
-            gp.set_column(drawing, gp.TRACE, np.where(column == trace.key, key, column))
+            gp.set_column(drawing, TRACE, np.where(column == trace.key, key, column))
     return store(data, replace(trace, key=key))
+
+
+def _counted(column: np.ndarray) -> dict[int, int]:
+    keys, counts = np.unique(column, return_counts=True)
+    return dict(zip(keys.tolist(), counts.tolist(), strict=True))
 
 
 def _users(drawings: list[object], key: int) -> int:
     """How many of the drawings have strokes of that trace."""
-    columns = (gp.read_column(drawing, gp.TRACE) for drawing in drawings)
+    columns = (gp.read_column(drawing, TRACE) for drawing in drawings)
     return sum(1 for c in columns if c is not None and (c == key).any())
 
 

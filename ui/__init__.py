@@ -1,15 +1,33 @@
-"""What the user sees in Blender: panels, overlay, menus, tool; no logic of its own."""
+"""What the user sees in Blender: panels, overlay, menus, tool, keys; no logic of its own."""
 
 from __future__ import annotations
 
+from importlib import import_module
+from types import ModuleType
+
+_WITH_CLASSES = ("preferences", "presets", "trace_panel", "junction_panel", "pie")
+_WITH_REGISTER = ("menus", "overlay", "keymap", "tool")
+
+
+def _modules(names: tuple[str, ...]) -> list[ModuleType]:
+    return [import_module(f".{name}", __package__) for name in names]
+
 
 def register() -> None:
-    from . import menus
+    import bpy
 
-    menus.register()
+    for module in _modules(_WITH_CLASSES):
+        for cls in module.CLASSES:
+            bpy.utils.register_class(cls)
+    for module in _modules(_WITH_REGISTER):
+        module.register()
 
 
 def unregister() -> None:
-    from . import menus
+    import bpy
 
-    menus.unregister()
+    for module in reversed(_modules(_WITH_REGISTER)):
+        module.unregister()
+    for module in reversed(_modules(_WITH_CLASSES)):
+        for cls in reversed(module.CLASSES):
+            bpy.utils.unregister_class(cls)

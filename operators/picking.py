@@ -1,0 +1,52 @@
+"""What lies under the mouse: plain NumPy in screen space, so it needs neither GPU nor window."""
+
+from __future__ import annotations
+
+import numpy as np
+
+Array = np.ndarray
+
+
+def project(points: Array, matrix: Array, width: float, height: float) -> Array:
+    """Where points appear in a region.
+
+    Args:
+        points: (N, 3) in the space that `matrix` starts from.
+        matrix: (4, 4) perspective matrix of the view times the object's world matrix.
+
+    Returns:
+        (N, 2) pixels from the lower left corner; NaN behind the eye.
+    """
+    points = np.asarray(points, np.float64).reshape(-1, 3)
+    seen = points @ matrix[:3, :3].T + matrix[:3, 3]
+    depth = points @ matrix[3, :3] + matrix[3, 3]
+    depth = np.where(depth > 1e-9, depth, np.nan)
+    return (seen[:, :2] / depth[:, None] + 1.0) * (0.5 * width, 0.5 * height)
+
+
+def nearest(places: Array, mouse: tuple[float, float], radius: float) -> int:
+    """The place nearest to the mouse within a radius; -1 when there is none."""
+    distance = np.linalg.norm(places - np.asarray(mouse, float), axis=1)
+    if not np.isfinite(distance).any():
+        return -1
+    best = int(np.nanargmin(distance))
+    return best if distance[best] <= radius else -1
+
+
+def nearest_line(lines: list[Array], mouse: tuple[float, float], radius: float) -> int:
+    """The polyline nearest to the mouse within a radius; -1 when there is none."""
+    distances = [_to_line(line, np.asarray(mouse, float)) for line in lines]
+    if not distances or not np.isfinite(distances).any():
+        return -1
+    best = int(np.nanargmin(distances))
+    return best if distances[best] <= radius else -1
+
+
+def _to_line(line: Array, mouse: Array) -> float:
+    line = line[np.isfinite(line).all(axis=1)]
+    if len(line) < 2:
+        return np.inf
+    start, side = line[:-1], np.diff(line, axis=0)
+    share = ((mouse - start) * side).sum(1) / np.maximum((side**2).sum(1), 1e-12)
+    foot = start + np.clip(share, 0, 1)[:, None] * side
+    return float(np.linalg.norm(foot - mouse, axis=1).min())

@@ -1,0 +1,153 @@
+"""The junctions in the viewport: rings coloured by doubt, the current routing, the preview.
+
+Rings are one batch per drawing, in the drawing's own space: they follow the object's transform for
+nothing and are made anew only when the routing or the colours change.
+"""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import bpy
+import gpu
+import numpy as np
+from gpu_extras.batch import batch_for_shader
+
+from ..engine import InvoluteError
+from ..operators.view_state import Shown, shown_in, view_of
+from . import cards_drawing
+from .overlay_geometry import Route, rings, routes
+from .preferences import preferences_of
+
+if TYPE_CHECKING:
+    from ..engine import Drawing
+
+_MAX_BATCHES = 16
+_batches: OrderedDict[tuple, gpu.types.GPUBatch] = OrderedDict()
+_handles: list[object] = []
+
+
+def draw_rings_and_routes() -> None:
+    """POST_VIEW: everything that lies in the drawing's plane."""
+    context = bpy.context
+    if not _is_on(context):
+        return
+    for shown in _traced(context):
+        with gpu.matrix.push_pop():
+            gpu.matrix.multiply_matrix(shown.object.matrix_world)
+            _draw_rings(context, shown)
+            if shown.object == context.active_object and shown.junction is not None:
+                _draw_routes(context, shown)
+
+
+def draw_labels() -> None:
+    """POST_PIXEL: letters, cards and the line of a drag."""
+    context = bpy.context
+    if not _is_on(context) or context.region_data is None:
+        return
+    try:
+        shown = shown_in(context)
+    except InvoluteError:
+        return
+    if shown is not None and shown.junction is not None:
+        cards_drawing.draw(context, shown)
+    drag = view_of(context).drag
+    if any(drag):
+        cards_drawing.draw_drag(context, tuple(drag))
+
+
+def register() -> None:
+    space = bpy.types.SpaceView3D
+    _handles.append(space.draw_handler_add(draw_rings_and_routes, (), "WINDOW", "POST_VIEW"))
+    _handles.append(space.draw_handler_add(draw_labels, (), "WINDOW", "POST_PIXEL"))
+
+
+def unregister() -> None:
+    for handle in _handles:
+        bpy.types.SpaceView3D.draw_handler_remove(handle, "WINDOW")
+    _handles.clear()
+    _batches.clear()
+
+
+def pen_width(drawing: Drawing) -> float:
+    """The usual width of a line, px of the drawing."""
+    widths = drawing.graph.widths
+    return float(np.median(widths)) if widths is not None and len(widths) else 3.0
+
+
+def _is_on(context: bpy.types.Context) -> bool:
+    space = context.space_data
+    return (
+        view_of(context).show_overlay
+        and space is not None
+        and space.type == "VIEW_3D"
+        and space.overlay.show_overlays
+    )
+
+
+def _traced(context: bpy.types.Context) -> Iterator[Shown]:
+    for obj in context.visible_objects:
+        if obj.type == "GREASEPENCIL":
+            try:
+                shown = shown_in(context, obj)
+            except InvoluteError:  # a newer version's data: nothing to show
+                continue
+            if shown is not None and len(shown.table):
+                yield shown
+
+
+def _draw_rings(context: bpy.types.Context, shown: Shown) -> None:
+    preferences = preferences_of(context)
+    scale = tuple(
+        tuple(round(v, 4) for v in getattr(preferences, name))
+        for name in ("color_sure", "color_doubtful", "color_locked")
+    )
+    key = (shown.trace.stamp, tuple(shown.trace.placement.as_list()), scale, preferences.ring_size)
+    batch = _batches.get(key)
+    shader = gpu.shader.from_builtin("POLYLINE_FLAT_COLOR")
+    if batch is None:
+        radius = preferences.ring_size * pen_width(shown.trace.drawing)
+        shape = rings(shown.table, radius, scale)
+        places = shown.trace.placement.to_object(shape.points)
+        batch = batch_for_shader(
+            shader, "LINES", {"pos": places, "color": shape.colors}, indices=shape.edges
+        )
+        _batches[key] = batch
+        while len(_batches) > _MAX_BATCHES:
+            _batches.popitem(last=False)
+    _set_up(context, shader, 2.0)
+    batch.draw(shader)
+    _tidy_up()
+
+
+def _draw_routes(context: bpy.types.Context, shown: Shown) -> None:
+    """The current junction's lines in the colours of their strokes; a preview is drawn wider."""
+    junction, preview = shown.junction, shown.view.preview
+    previewing = 0 <= preview < len(junction.alternatives)
+    pairs = junction.alternatives[preview].pairs if previewing else junction.pairs
+    shader = gpu.shader.from_builtin("POLYLINE_UNIFORM_COLOR")
+    for route in routes(shown.trace.drawing, junction, pairs):
+        _set_up(context, shader, 7.0 if previewing else 4.5)
+        _draw_route(shader, shown, route)
+    _tidy_up()
+
+
+def _draw_route(shader: gpu.types.GPUShader, shown: Shown, route: Route) -> None:
+    shader.uniform_float("color", (*route.color, 0.95 if route.joined else 0.6))
+    places = shown.trace.placement.to_object(route.points)
+    batch_for_shader(shader, "LINE_STRIP", {"pos": places}).draw(shader)
+
+
+def _set_up(context: bpy.types.Context, shader: gpu.types.GPUShader, width: float) -> None:
+    region = context.region
+    gpu.state.blend_set("ALPHA")
+    gpu.state.depth_test_set("NONE")
+    shader.bind()
+    shader.uniform_float("viewportSize", (region.width, region.height))
+    shader.uniform_float("lineWidth", width * context.preferences.system.ui_scale)
+
+
+def _tidy_up() -> None:
+    gpu.state.blend_set("NONE")

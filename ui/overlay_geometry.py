@@ -1,0 +1,85 @@
+"""Lines of the junction overlay as arrays, in pixels of the drawing. Pure NumPy."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..operators.junction_words import letters
+from ..operators.under_mouse import near_part
+from .colors import LOOSE, STROKES, Color, doubt_colors
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from ..engine import Drawing, Junction
+    from ..operators.junction_table import JunctionTable
+
+Array = np.ndarray
+
+_SIDES = 20  # of a ring
+_LABEL_AT = 34.0  # px from the junction
+
+
+@dataclass(frozen=True, eq=False)
+class Rings:
+    """points: (J * sides, 2) px. colors: (J * sides, 4). edges: (E, 2) int32 pairs of points."""
+
+    points: Array
+    colors: Array
+    edges: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Route:
+    """How lines run through a junction: a polyline in px, its colour, and does it go through."""
+
+    points: Array
+    color: Color
+    joined: bool
+
+
+def rings(table: JunctionTable, radius: float, scale: tuple[Color, Color, Color]) -> Rings:
+    """A ring around each junction: the more doubtful, the larger and the more yellow.
+
+    Args:
+        radius: of a certain junction's ring, px.
+        scale: colours of the sure, the doubtful and the locked.
+    """
+    turn = np.arange(_SIDES) * (2 * np.pi / _SIDES)
+    circle = np.stack([np.cos(turn), np.sin(turn)], axis=1)
+    radii = radius * (1.0 + np.where(table.locked, 0.0, np.minimum(2 * table.doubt, 1.0)))
+    points = table.positions[:, None] + radii[:, None, None] * circle
+    colors = doubt_colors(table.doubt, table.locked, *scale)
+    corner = np.arange(_SIDES)
+    one = np.stack([corner, np.roll(corner, -1)], axis=1)
+    edges = (np.arange(len(table))[:, None, None] * _SIDES + one).reshape(-1, 2)
+    return Rings(
+        points.reshape(-1, 2).astype(np.float32),
+        np.repeat(colors, _SIDES, axis=0),
+        edges.astype(np.int32),
+    )
+
+
+def routes(drawing: Drawing, junction: Junction, pairs: Iterable[tuple[int, int]]) -> list[Route]:
+    """The half-branches of a junction, joined as a routing says, each stroke in its own colour."""
+    left = set(junction.half_branches)
+    found = []
+    for number, (a, b) in enumerate(sorted(pairs)):
+        line = np.concatenate([near_part(drawing, a)[::-1], near_part(drawing, b)[1:]])
+        found.append(Route(line.astype(np.float32), STROKES[number % len(STROKES)], True))
+        left -= {a, b}
+    found += [
+        Route(near_part(drawing, half).astype(np.float32), LOOSE, False) for half in sorted(left)
+    ]
+    return found
+
+
+def labels(drawing: Drawing, junction: Junction) -> list[tuple[str, tuple[float, float]]]:
+    """The letters of a junction's half-branches and where they stand, px."""
+    return [
+        (letter, tuple(near_part(drawing, half, _LABEL_AT)[-1].tolist()))
+        for half, letter in letters(drawing, junction).items()
+    ]

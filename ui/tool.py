@@ -1,0 +1,59 @@
+"""The Junction tool in the toolbar of the 3D viewport, in every mode where it makes sense."""
+
+from __future__ import annotations
+
+import bpy
+
+from ..operators.choose import INVOLUTE_OT_choose
+from ..operators.drag_join import INVOLUTE_OT_drag_join, INVOLUTE_OT_separate_under_mouse
+
+
+class _Junctions:
+    bl_space_type = "VIEW_3D"
+    bl_label = "Junctions"
+    bl_description = (
+        "Click a junction to choose among its alternatives\n"
+        "Drag from one line to another to join them\n"
+        "Alt-click a line to end it at its junction"
+    )
+    bl_icon = "ops.gpencil.draw.poly"
+    bl_keymap = (
+        (
+            INVOLUTE_OT_choose.bl_idname,
+            {"type": "LEFTMOUSE", "value": "CLICK"},
+            {"properties": [("pick", True)]},
+        ),
+        (INVOLUTE_OT_drag_join.bl_idname, {"type": "LEFTMOUSE", "value": "CLICK_DRAG"}, None),
+        (
+            INVOLUTE_OT_separate_under_mouse.bl_idname,
+            {"type": "LEFTMOUSE", "value": "PRESS", "alt": True},
+            None,
+        ),
+    )
+
+    @staticmethod
+    def draw_settings(context: bpy.types.Context, layout: bpy.types.UILayout, tool: object) -> None:
+        view = context.window_manager.involute_view
+        layout.prop(view, "show_overlay", text="Junctions", icon="OVERLAY", toggle=True)
+
+
+def _tool(mode: str, name: str) -> type:
+    attributes = {"bl_context_mode": mode, "bl_idname": f"involute.junctions_{name}"}
+    return type(f"INVOLUTE_WT_{name}", (_Junctions, bpy.types.WorkSpaceTool), attributes)
+
+
+_TOOLS = (
+    _tool("OBJECT", "object"),
+    _tool("EDIT_GREASE_PENCIL", "edit"),
+    _tool("PAINT_GREASE_PENCIL", "draw"),
+)
+
+
+def register() -> None:
+    for tool in _TOOLS:
+        bpy.utils.register_tool(tool, separator=True)
+
+
+def unregister() -> None:
+    for tool in reversed(_TOOLS):
+        bpy.utils.unregister_tool(tool)

@@ -1,0 +1,91 @@
+"""Sidebar, first panel: settings, the Trace button, progress, and what came out."""
+
+from __future__ import annotations
+
+import bpy
+
+from ..engine import InvoluteError
+from ..operators import worker
+from ..operators.import_scan import INVOLUTE_OT_import_scan
+from ..operators.trace import INVOLUTE_OT_cancel, INVOLUTE_OT_trace, is_image_empty
+from ..operators.trace_settings import as_values, scene_settings
+from ..operators.view_state import Shown, shown_in
+from .presets import draw_preset_menu
+from .settings_layout import draw_settings
+
+
+class INVOLUTE_PT_trace(bpy.types.Panel):
+    bl_label = "Trace Drawing"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Involute"
+
+    def draw_header_preset(self, context: bpy.types.Context) -> None:
+        draw_preset_menu(self.layout)
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout = self.layout
+        if worker.current is not None:
+            job = worker.current
+            layout.progress(factor=job.fraction, text=job.stage)
+            layout.operator(INVOLUTE_OT_cancel.bl_idname, icon="CANCEL")
+            return
+        settings = scene_settings(context.scene)
+        column = layout.column()
+        column.scale_y = 1.3
+        if is_image_empty(context.active_object):
+            _button(
+                column,
+                INVOLUTE_OT_trace.bl_idname,
+                settings,
+                f"Trace {context.active_object.name}",
+                "GREASEPENCIL",
+            )
+        _button(
+            column, INVOLUTE_OT_import_scan.bl_idname, settings, "Trace Files...", "FILE_FOLDER"
+        )
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        draw_settings(layout, settings)
+
+
+class INVOLUTE_PT_summary(bpy.types.Panel):
+    bl_label = "Result"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Involute"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        try:
+            return shown_in(context) is not None
+        except InvoluteError:
+            return False
+
+    def draw(self, context: bpy.types.Context) -> None:
+        shown: Shown = shown_in(context)
+        drawing = shown.trace.drawing
+        facts = (
+            ("Strokes", f"{len(drawing.strokes):,}"),
+            ("Solid blacks", f"{len(drawing.fills):,}"),
+            ("Junctions", f"{len(shown.table):,}"),
+            ("Doubtful", f"{len(drawing.doubtful):,}"),
+            ("Seconds", f"{sum(drawing.seconds.values()):.1f}"),
+        )
+        column = self.layout.column(align=True)
+        for name, value in facts:
+            split = column.split(factor=0.55)
+            split.label(text=name)
+            split.label(text=value, translate=False)
+
+
+def _button(
+    layout: bpy.types.UILayout, operator: str, settings: object, text: str, icon: str
+) -> None:
+    """A button that traces with the settings of the sidebar."""
+    button = layout.operator(operator, text=text, icon=icon)
+    for name, value in as_values(settings).items():
+        setattr(button, name, value)
+
+
+CLASSES = (INVOLUTE_PT_trace, INVOLUTE_PT_summary)
