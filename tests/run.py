@@ -48,10 +48,12 @@ def main(argv: list[str] | None = None) -> int:
 
 
 def in_this_environment() -> tuple[bool, str]:
-    for check in (["check", "."], ["format", "--check", "."]):
-        if _call([sys.executable, "-m", "ruff", *check]):
-            return False, f"ruff {check[0]}"
-    return _pytest(Path(sys.executable), "tests", INVOLUTE_ZIP=_extension())
+    checks = (["check", "."], ["format", "--check", "."])
+    untidy = [c[0] for c in checks if _call([sys.executable, "-m", "ruff", *c])]
+    passed, closing = _pytest(Path(sys.executable), "tests", INVOLUTE_ZIP=_extension())
+    if untidy:
+        return False, f"ruff {' and '.join(untidy)} failed; {closing}"
+    return passed, closing
 
 
 def in_blender(version: str, bpy: str, python: str) -> tuple[bool, str]:
