@@ -183,9 +183,9 @@ def star(rng: Rng, size: int) -> tuple[Strokes, float]:
     return strokes, 14.0
 
 
-def parallels(rng: Rng, size: int) -> tuple[Strokes, float]:
+def parallels(rng: Rng, size: int, gap: float | None = None) -> tuple[Strokes, float]:
     """Curves side by side, 3 to 12 px apart; ends may flare, meet or stop early."""
-    gap = rng.uniform(3, 12)
+    gap = gap or rng.uniform(3, 12)
     spine = resample(_spline(rng, size, size * 0.6), 3.0)
     tangent = np.gradient(spine, axis=0)
     normal = np.stack([-tangent[:, 1], tangent[:, 0]], 1)

@@ -28,7 +28,7 @@ def paper(rng: Rng, size: int, ink_level: float) -> Array:
         specks = noise(rng, str(rng.choice(["grain", "tooth", "rough"])), size)
         sheet -= rng.uniform(0.03, 0.2) * np.clip(specks - rng.uniform(2.3, 3.2), 0, 1)
     if rng.random() < 0.25:
-        sheet *= 1 - _print(rng, size, ink_level)
+        sheet *= 1 - print_on(rng, size, ink_level)
     for _ in range(rng.choice([0, 0, 0, 0, 1, 2])):
         sheet += _fold(rng, size)
     return np.clip(sheet, 0.3, 1.05)
@@ -41,12 +41,16 @@ def _frame(rng: Rng, size: int) -> tuple[Array, Array]:
     return x * np.cos(turn) + y * np.sin(turn), y * np.cos(turn) - x * np.sin(turn)
 
 
-def _print(rng: Rng, size: int, ink_level: float) -> Array:
-    """Ruled lines, grid or dots as an amount of ink; regular, thin and lighter than the drawing."""
+def print_on(rng: Rng, size: int, ink_level: float, pitch: float | None = None) -> Array:
+    """Ruled lines, grid or dots as an amount of ink; regular, thin and lighter than the drawing.
+
+    ink_level: how dark the drawing is; pitch: px between lines (a grid then), or None for any.
+    """
     x, y = _frame(rng, size)
     if rng.random() < 0.3:
         x, y = y, x
-    pitch = float(np.exp(rng.uniform(np.log(9), np.log(70))))
+    kind = rng.random() if pitch is None else 0.5
+    pitch = pitch or float(np.exp(rng.uniform(np.log(9), np.log(70))))
     half = rng.uniform(0.4, 1.1)
 
     def lines(v: Array, pitch: float) -> Array:
@@ -54,7 +58,6 @@ def _print(rng: Rng, size: int, ink_level: float) -> Array:
         return np.clip(half + 0.5 - off, 0, 1)
 
     rows = lines(y, pitch)
-    kind = rng.random()
     if kind < 0.45:
         marks = rows
         if rng.random() < 0.4:

@@ -10,6 +10,7 @@ import json
 from collections.abc import Callable
 from pathlib import Path
 
+import cv2
 import numpy as np
 from involute.engine.centerline.backends import load
 from involute.engine.centerline.classical import classical
@@ -60,26 +61,34 @@ def main(arguments: list[str] | None = None) -> None:
         options.json.write_text(json.dumps(table, indent=1))
 
 
-def judge(maps: Array, provider: Callable[[Scan], LineMaps]) -> dict[str, float]:
+def judge(drawn: Array, provider: Callable[[Scan], LineMaps]) -> dict[str, float]:
     """Counts of `metrics.page_figures` for one page, (6, H, W) uint8."""
-    truth = maps[1:].astype(np.float32) / 255
-    ink = maps[0].astype(np.float32) / 255
+    truth = drawn[1:].astype(np.float32) / 255
+    ink = drawn[0].astype(np.float32) / 255
     seen = provider(Scan(ink, None, 1.0, ink.shape[::-1], measure_pen(ink) or 3.0))
     nothing = np.zeros_like(ink)
-    half = nothing if seen.half_width is None else seen.half_width / HALF_WIDTH_UNIT
+    half = _distance_to_paper(ink) if seen.half_width is None else seen.half_width
     others = [nothing if m is None else m for m in (seen.junctions, seen.endpoints)]
-    return page_figures(np.stack([seen.centerline, *others, half, nothing]), truth)
+    return page_figures(
+        np.stack([seen.centerline, *others, half / HALF_WIDTH_UNIT, nothing]), truth
+    )
+
+
+def _distance_to_paper(ink: Array) -> Array:
+    """Half-widths as the distance transform knows them, px; valid on the centerline."""
+    dark = (ink > 0.5).astype(np.uint8)
+    return cv2.distanceTransform(dark, cv2.DIST_L2, cv2.DIST_MASK_PRECISE) - 0.25
 
 
 def print_table(table: dict[str, dict[str, dict[str, float]]]) -> None:
     """Markdown: one row for each medium, the classical provider's figure after the slash."""
     columns = list(table["network"]["all"])
+    both = ("precision", "recall", "chamfer_px", "half_width_error_px")
     print("| medium | " + " | ".join(columns) + " |\n" + "|---" * (len(columns) + 1) + "|")
     for medium in table["network"]:
         mine, other = table["network"][medium], table["classical"][medium]
         cells = [
-            f"{mine[c]:.3f} / {other[c]:.3f}" if c in columns[:3] else f"{mine[c]:.3f}"
-            for c in columns
+            f"{mine[c]:.3f} / {other[c]:.3f}" if c in both else f"{mine[c]:.3f}" for c in columns
         ]
         print(f"| {medium} | " + " | ".join(cells) + " |")
 
