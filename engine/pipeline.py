@@ -22,6 +22,7 @@ from .routing import route
 from .scan import read_scan
 from .settings import Settings
 from .solids import split_solids
+from .unmixing import without_inks
 
 Progress = Callable[[str, float], None]
 Source = str | PathLike[str] | np.ndarray
@@ -64,6 +65,7 @@ def vectorize(
     clock = _Clock(progress)
     with clock("scan"):
         scan = set_aside(read_scan(source, settings, page=page), settings)
+        scan = without_inks(scan, settings)
     with clock("solids"):
         lines, fills = split_solids(scan, settings)
     with clock("centerline") as tick:
