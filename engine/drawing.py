@@ -83,18 +83,20 @@ class Drawing:
     def junctions(self) -> tuple[Junction, ...]:
         """All junctions as the user sees them, in graph.junctions order."""
         graph, routing = self.graph, self.routing
+        order, starts = (values.tolist() for values in graph.halves_at)
+        partner, position = routing.partner.tolist(), graph.vertices.tolist()
+        locked = routing.locked.tolist()
         found = []
-        for index, vertex in enumerate(graph.junctions):
-            halves = graph.halves_of(vertex)
-            mates = routing.partner[halves]
+        for index, vertex in enumerate(graph.junctions.tolist()):
+            halves = tuple(order[starts[vertex] : starts[vertex + 1]])
             found.append(
                 Junction(
                     index=index,
-                    position=(float(graph.vertices[vertex, 0]), float(graph.vertices[vertex, 1])),
-                    half_branches=tuple(halves.tolist()),
-                    pairs=tuple((a, b) for a, b in zip(halves.tolist(), mates.tolist()) if a < b),  # noqa: B905
+                    position=tuple(position[vertex]),
+                    half_branches=halves,
+                    pairs=tuple((h, partner[h]) for h in halves if h < partner[h]),
                     alternatives=routing.alternatives[index],
-                    locked=bool(routing.locked[index]),
+                    locked=locked[index],
                 )
             )
         return tuple(found)
