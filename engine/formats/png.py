@@ -25,7 +25,7 @@ def write(drawing: Drawing, path: Path) -> None:
     write_bytes(data.tobytes(), path)
 
 
-def render(drawing: Drawing, paper: Array | None = None) -> Array:
+def render(drawing: Drawing, paper: Array | None = None, *, rings: bool = True) -> Array:
     """Draw the strokes, each in its own colour, with a ring at every junction.
 
     The rings go from green (certain) over yellow to red (doubtful); blue = locked by the user.
@@ -33,6 +33,7 @@ def render(drawing: Drawing, paper: Array | None = None) -> Array:
     Args:
         drawing: what to draw.
         paper: (h, w, 3) uint8 RGB to show faded underneath, or None for white.
+        rings: show the junctions.
 
     Returns:
         (h, w, 3) uint8 RGB; the size of the input, or less when that is over 4096 px.
@@ -57,7 +58,7 @@ def render(drawing: Drawing, paper: Array | None = None) -> Array:
     if over > 1:
         canvas = cv2.resize(canvas, shape[::-1], interpolation=cv2.INTER_AREA)
     radius = round(_ring_radius(drawing) * zoom * 2**_SUB)
-    for junction in drawing.junctions:
+    for junction in drawing.junctions if rings else ():
         center = _fixed(np.array([junction.position]), zoom)[0]
         color = (40, 90, 255) if junction.locked else _doubt_color(junction.doubt)
         cv2.circle(canvas, center.tolist(), radius, color, 1, cv2.LINE_AA, _SUB)
