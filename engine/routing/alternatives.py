@@ -2,12 +2,12 @@
 
 A way to route a junction is an involution of its half-branches; its probability is proportional to
 exp(sum of the scores of its pairs). Up to degree 10 all of them are listed and the probabilities
-are exact. Above, the best few are searched, and the probabilities are relative to those few.
+are exact. Above, only the best one and those that differ from it by one step are looked at, and the
+probabilities are relative to these.
 """
 
 from __future__ import annotations
 
-import heapq
 from collections.abc import Mapping
 
 import numpy as np
@@ -19,7 +19,6 @@ from .matching import MAX_LISTED_DEGREE, best_matching, involutions, pair_matrix
 Array = np.ndarray
 
 KEPT = 6  # alternatives a person would look at
-_SEARCHED = 12  # ways listed at junctions too large to list all
 
 
 def ranked_alternatives(
@@ -62,58 +61,51 @@ def _listed(degree: int, scores: Array) -> list[tuple[Array, Array]]:
 
 
 def _searched(degree: int, scores: Array) -> list[tuple[Array, Array]]:
-    """The best `_SEARCHED` involutions of each junction, probabilities relative to these."""
+    """The best involution of each junction and its neighbours, best first."""
     a, b = np.triu_indices(degree, 1)
     found = []
     for row in scores:
         matrix = np.zeros((degree, degree))
         matrix[a, b] = matrix[b, a] = row
-        ways, total = best_matchings(matrix, _SEARCHED)
-        weight = np.exp(total - total.max())
+        ways, totals = neighbourhood(matrix, best_matching(matrix))
+        weight = np.exp(totals - totals[0])
         found.append((ways, weight / weight.sum()))
     return found
 
 
-def best_matchings(score: Array, count: int, budget: int = 4000) -> tuple[Array, Array]:
-    """The `count` involutions with the greatest total score, best first.
+def neighbourhood(score: Array, best: Array) -> tuple[Array, Array]:
+    """An involution and all that are one step away from it, highest total first.
 
-    Best-first search over partial involutions. What the undecided things can still add is bounded
-    by half of the best score of each, so that ways come out in their true order. Should the budget
-    of steps run out, the best way of all (by the blossom algorithm) is still among those returned.
+    A step splits a pair, or joins two things that were not a pair; their partners, if they had
+    any, are then left single or joined with each other.
 
     Args:
         score: (d, d) symmetric scores of joining two things against ending both; diagonal 0.
+        best: (d,) partners; the one with the highest total.
 
     Returns:
-        (n, d) int8 partners, n <= count, and their (n,) total scores.
+        (n, d) partners, `best` first, and their (n,) total scores.
     """
-    degree = len(score)
-    hope = np.maximum(score.max(1), 0.0) / 2
-    best = best_matching(score).astype(np.int8)
-    total = float(score[np.arange(degree), best].sum() / 2)
-    found, totals = [best], [total]
-    heap: list[tuple[float, float, tuple[int, ...]]] = [(-float(hope.sum()), 0.0, ())]
-    while heap and budget > 0 and len(found) < count:
-        budget -= 1
-        _, gain, mates = heapq.heappop(heap)
-        if len(mates) == degree:
-            if any(mates[i] != best[i] for i in range(degree)):
-                found.append(np.array(mates, np.int8))
-                totals.append(gain)
-            continue
-        # `mates` decides things in ascending order; -1 has not been reached yet.
-        thing = len(mates)
-        taken = {mate: k for k, mate in enumerate(mates)}
-        if thing in taken:
-            choices = [taken[thing]]
-        else:
-            choices = [thing, *(j for j in range(thing + 1, degree) if j not in taken)]
-        for mate in choices:
-            joined = gain + (float(score[thing, mate]) if mate > thing else 0.0)
-            more = (*mates, mate)
-            ahead = [j for j in range(thing + 1, degree) if j not in more]
-            heapq.heappush(heap, (-(joined + float(hope[ahead].sum())), joined, more))
-    return np.array(found), np.array(totals)
+    things = np.arange(len(best))
+    worth = score[things, best]
+    i, j = np.triu_indices(len(best), 1)
+    pair = best[i] == j
+    p, q = best[i], best[j]
+    gain = np.where(pair, -score[i, j], score[i, j] - worth[i] - worth[j])
+    # Both had partners, which join in their turn; (i, j) and (p, q) stand for the same step.
+    cross = ~pair & (p != i) & (q != j) & (np.minimum(i, j) < np.minimum(p, q))
+    steps = np.concatenate([np.arange(len(i)), np.flatnonzero(cross)])
+    joins = np.arange(len(steps)) >= len(i)
+    gain = gain[steps] + np.where(joins, score[p[steps], q[steps]], 0.0)
+
+    i, j, p, q, pair = (values[steps] for values in (i, j, p, q, pair))
+    row = np.arange(len(steps))
+    ways = np.tile(best, (len(steps), 1))
+    ways[row, p], ways[row, q] = np.where(joins, q, p), np.where(joins, p, q)
+    ways[row, i], ways[row, j] = np.where(pair, i, j), np.where(pair, j, i)
+    order = np.argsort(-gain, kind="stable")
+    total = worth.sum() / 2
+    return np.vstack([best, ways[order]]), np.concatenate([[total], total + gain[order]])
 
 
 def _collect(
