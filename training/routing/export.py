@@ -44,7 +44,7 @@ def load(checkpoint: Path) -> RoutingNet:
     """The network of a checkpoint, ready to run."""
     saved = torch.load(checkpoint, map_location="cpu")
     net = RoutingNet(**saved["config"])
-    net.load_state_dict(saved["net"])
+    net.load_state_dict(saved["mean"])
     return net.eval()
 
 
@@ -79,6 +79,8 @@ def _fit(parts: list[tuple[torch.Tensor, torch.Tensor, torch.Tensor]]) -> tuple[
     shift = torch.zeros(1, requires_grad=True)
     optimizer = torch.optim.LBFGS([scale, shift], max_iter=60, line_search_fn="strong_wolfe")
     count = sum(len(scores) for scores, _, _ in parts)
+    if not count:
+        return 1.0, 0.0
 
     def loss() -> torch.Tensor:
         optimizer.zero_grad()

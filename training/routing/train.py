@@ -34,7 +34,7 @@ def main() -> None:
     parser.add_argument("--loss", choices=("exact", "sinkhorn"), default="exact")
     parser.add_argument("--width", type=int, default=64)
     parser.add_argument("--every", type=int, default=500, help="steps between evaluations")
-    parser.add_argument("--minutes", type=float, default=1e9, help="stop after so much CPU time")
+    parser.add_argument("--minutes", type=float, default=1e9, help="stop after so long")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--device", default="cpu", help="cpu, cuda or mps")
     parser.add_argument("--traced", type=Path, help="pages by training.routing.traced")
@@ -49,27 +49,29 @@ def train(args: argparse.Namespace) -> None:
     args.out.mkdir(parents=True, exist_ok=True)
     torch.manual_seed(args.seed)
     net = RoutingNet(args.width).to(args.device)
-    if args.start:
-        net.load_state_dict(torch.load(args.start, map_location=args.device)["net"])
+    mean = RoutingNet(args.width).to(args.device)
     optimizer = torch.optim.AdamW(net.parameters(), lr=args.rate, weight_decay=0.01)
-    checkpoint, first = args.out / "checkpoint.pt", 0
+    checkpoint, first, before = args.out / "checkpoint.pt", 0, 0.0
     if checkpoint.exists():
         saved = torch.load(checkpoint, map_location=args.device)
         net.load_state_dict(saved["net"])
+        mean.load_state_dict(saved["mean"])
         optimizer.load_state_dict(saved["optimizer"])
-        first = saved["step"]
+        first, before = saved["step"], saved["minutes"]
+    elif args.start:
+        net.load_state_dict(torch.load(args.start, map_location=args.device)["mean"])
+        mean.load_state_dict(net.state_dict())
     traced = load(args.traced) if args.traced else []
     library = Library.load(args.data, held_out=False)
     bank = Bank(library, args.seed * 1000 + first, traced, args.traced_share)
     held_out = validation(Library.load(args.data, held_out=True), args.traced_held_out)
     loss_of = getattr(likelihood, args.loss)
-    started, running = time.process_time(), []
-    for step in range(first, args.steps):
-        warm = min(1.0, (step + 1) / 200)
+    started, running, step, done = time.monotonic(), [], first, 0.0
+    while done < 1:
+        minutes = before + (time.monotonic() - started) / 60
+        done = max((step + 1) / args.steps, minutes / args.minutes)
         for group in optimizer.param_groups:
-            group["lr"] = (
-                args.rate * warm * (0.02 + 0.49 * (1 + math.cos(math.pi * step / args.steps)))
-            )
+            group["lr"] = args.rate * learning_rate(step, done)
         # Junctions of more than six are rare: a wider table is only now and then worth its time.
         batch = bank.batch(args.junctions, 8 if step % 5 == 0 else 6)
         scores = run(net, batch, args.device)
@@ -81,20 +83,28 @@ def train(args: argparse.Namespace) -> None:
         loss.backward()
         torch.nn.utils.clip_grad_norm_(net.parameters(), 1.0)
         optimizer.step()
+        step += 1
+        # The mean of the last few hundred steps is better than any one of them.
+        keep = min(0.995, step / (step + 10))
+        with torch.no_grad():
+            for slow, fast in zip(mean.parameters(), net.parameters(), strict=True):
+                slow.lerp_(fast, 1 - keep)
         running.append(float(loss.detach()))
-        spent = (time.process_time() - started) / 60
-        stop = spent > args.minutes or step + 1 == args.steps
-        if stop or (step + 1) % args.every == 0:
-            record = {"step": step + 1, "minutes": round(spent, 2), "loss": np.mean(running)}
+        if done >= 1 or step % args.every == 0:
+            record = {"step": step, "minutes": round(minutes, 2), "loss": float(np.mean(running))}
             for name, part in held_out.items():
-                record[name] = evaluate(net, part, args.device).summary()
+                record[name] = evaluate(mean, part, args.device).summary()
             running = []
             with (args.out / "log.jsonl").open("a") as log:
-                log.write(json.dumps(record, default=float) + "\n")
-            state = {"net": net.state_dict(), "config": net.config, "step": step + 1}
-            torch.save({**state, "optimizer": optimizer.state_dict()}, checkpoint)
-        if stop:
-            break
+                log.write(json.dumps(record) + "\n")
+            state = {"net": net.state_dict(), "mean": mean.state_dict(), "config": net.config}
+            state |= {"optimizer": optimizer.state_dict(), "step": step, "minutes": minutes}
+            torch.save(state, checkpoint)
+
+
+def learning_rate(step: int, done: float) -> float:
+    """Share of the full rate: a short warm-up, then a cosine over the whole training."""
+    return min(1.0, (step + 1) / 200) * (0.02 + 0.49 * (1 + math.cos(math.pi * min(done, 1.0))))
 
 
 def run(net: RoutingNet, batch: Batch, device: str) -> torch.Tensor:

@@ -1,0 +1,191 @@
+"""Learning to route: pages, what is done to them, how right is counted, and what is shipped."""
+
+from __future__ import annotations
+
+from argparse import Namespace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+pytest.importorskip("torch", reason="training needs torch")
+pytest.importorskip("scipy", reason="training needs SciPy")
+
+import torch
+from involute.engine.routing import network
+from involute.engine.routing.encoding import PAIR_SIZE, TOKEN_SIZE
+from involute.engine.routing.matching import pair_matrix
+from involute.engine.settings import Settings
+from involute.training.routing.augment import augmented, contracted, random_fixed
+from involute.training.routing.data import Bank, encoded, joined, true_page
+from involute.training.routing.export import calibrate, export, load
+from involute.training.routing.judge import judge
+from involute.training.routing.likelihood import exact, sinkhorn
+from involute.training.routing.model import RoutingNet
+from involute.training.routing.pages import Library, net
+from involute.training.routing.traced import load as load_traced
+from involute.training.routing.traced import matched, save, trace_ideal
+from involute.training.routing.train import run, train
+
+seeds = st.integers(0, 2**32 - 1)
+
+
+def _line(*points: tuple[float, float]) -> np.ndarray:
+    corners = np.array(points, float)
+    t = np.linspace(0, len(points) - 1, 30 * (len(points) - 1) + 1)
+    return np.stack([np.interp(t, np.arange(len(points)), corners[:, c]) for c in (0, 1)], 1)
+
+
+CROSS = [_line((20, 60), (180, 70)), _line((90, 10), (100, 150)), _line((140, 68), (150, 150))]
+
+
+@pytest.fixture(scope="module")
+def drawings(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder like the training data: one source with a few nets as drawings."""
+    folder = tmp_path_factory.mktemp("drawings")
+    rng = np.random.default_rng(0)
+    pages = [net(rng) for _ in range(30)]
+    lines = [line / 500 * 1024 for page in pages for line in page]
+    np.savez(
+        folder / "openclipart.npz",
+        points=np.concatenate(lines).clip(0, 2000).astype(np.uint16),
+        stroke_offsets=np.cumsum([0] + [len(line) for line in lines]),
+        drawing_offsets=np.cumsum([0] + [len(page) for page in pages]),
+        scale=np.float32(1.0),
+    )
+    return folder
+
+
+def _scores(rng: np.random.Generator, degrees: list[int]) -> tuple[np.ndarray, ...]:
+    """Random symmetric scores, mask and a random true involution of junctions."""
+    slots = max(degrees)
+    scores = rng.normal(0, 2, (len(degrees), slots, slots)).astype(np.float32)
+    scores += scores.transpose(0, 2, 1)
+    mask = (np.arange(slots) < np.array(degrees)[:, None]).astype(np.float32)
+    truth = np.zeros_like(scores)
+    for row, degree in enumerate(degrees):
+        a, b = np.triu_indices(degree, 1)
+        ways = pair_matrix(degree)
+        truth[row, a, b] = truth[row, b, a] = ways[rng.integers(len(ways))]
+    return scores, mask, truth
+
+
+@given(seeds)
+@settings(max_examples=20, deadline=None)
+def test_the_exact_loss_is_the_probability_of_the_truth(seed: int) -> None:
+    scores, mask, truth = _scores(np.random.default_rng(seed), [3, 4, 6])
+    loss = exact(*(torch.from_numpy(a) for a in (scores, mask, truth))).numpy()
+    verdict = judge(scores, mask, truth)
+    np.testing.assert_allclose(loss, verdict.loss, atol=1e-4)
+    chosen = verdict.correct
+    np.testing.assert_allclose(np.exp(-loss[chosen]), verdict.probability[chosen], atol=1e-5)
+
+
+def test_contradicting_pairs_count_as_either() -> None:
+    scores, mask, truth = _scores(np.random.default_rng(1), [3])
+    truth[:] = 0
+    truth[0, 0, 1] = truth[0, 1, 0] = truth[0, 0, 2] = truth[0, 2, 0] = 1
+    loss = exact(*(torch.from_numpy(a) for a in (scores, mask, truth)))
+    weight = np.exp([0, scores[0, 0, 1], scores[0, 0, 2], scores[0, 1, 2]])
+    assert float(loss[0]) == pytest.approx(-np.log(weight[1:3].sum() / weight.sum()), abs=1e-4)
+
+
+def test_the_papers_loss_prefers_the_truth() -> None:
+    _, mask, truth = _scores(np.random.default_rng(2), [3, 4, 5])
+    torch.manual_seed(0)
+    arrays = torch.from_numpy(mask), torch.from_numpy(truth)
+    right = sinkhorn(torch.from_numpy(truth * 20 - 10), *arrays)
+    wrong = sinkhorn(torch.from_numpy(10 - truth * 20), *arrays)
+    assert torch.isfinite(right).all()
+    assert (right < wrong).all()
+
+
+@given(seeds)
+@settings(max_examples=15, deadline=None)
+def test_what_is_done_to_a_page_keeps_its_truth_an_involution(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    page = augmented(rng, true_page(net(rng)))
+    graph, partner = page.graph, page.partner
+    np.testing.assert_array_equal(partner[partner], np.arange(len(partner)))
+    np.testing.assert_array_equal(graph.half_vertex[partner], graph.half_vertex)
+    first, last = graph.points[graph.offsets[:-1]], graph.points[graph.offsets[1:] - 1]
+    np.testing.assert_allclose(first, graph.vertices[graph.ends[:, 0]], atol=1e-2)
+    np.testing.assert_allclose(last, graph.vertices[graph.ends[:, 1]], atol=1e-2)
+    for junction, pairs in random_fixed(rng, page, 0.5).items():
+        assert {h for pair in pairs for h in pair} <= set(
+            graph.halves_of(int(graph.junctions[junction])).tolist()
+        )
+
+
+def test_contracting_a_short_branch_joins_what_ran_through_it() -> None:
+    stem, other = _line((99, 60), (70, 150)), _line((102, 60), (130, -30))
+    page = true_page([_line((20, 60), (180, 60)), stem, other])
+    assert len(page.graph.junctions) == 2
+    page = contracted(page, 6.0)
+    assert len(page.graph.junctions) == 1
+    assert page.graph.branch_count == 4
+    joined_pairs = [(h, int(p)) for h, p in enumerate(page.partner) if h < p]
+    assert len(joined_pairs) == 1
+    directions = [
+        page.graph.half_branch(h)[-1] - page.graph.half_branch(h)[0] for h in joined_pairs[0]
+    ]
+    assert directions[0] @ directions[1] < 0
+
+
+def test_a_traced_page_is_matched_to_its_strokes(tmp_path: Path) -> None:
+    graph = trace_ideal(np.random.default_rng(0), CROSS, Settings())
+    page = matched(graph, CROSS)
+    degrees = sorted(graph.degrees[graph.junctions].tolist())
+    assert degrees == [3, 4]
+    assert len(page.allowed) == 3
+    save(tmp_path / "pages.npz", [page, page])
+    again = load_traced(tmp_path / "pages.npz")
+    assert len(again) == 2
+    np.testing.assert_array_equal(again[1].partner, page.partner)
+    np.testing.assert_array_equal(again[1].graph.points, graph.points)
+
+
+def test_batches_join_pages_without_mixing_them() -> None:
+    pages = [true_page(CROSS), true_page(net(np.random.default_rng(4)))]
+    parts = [encoded(page, {}, 8) for page in pages]
+    model = RoutingNet(width=16, edge=8, layers=2)
+    together = run(model, joined(parts), "cpu")
+    apart = torch.cat([run(model, part, "cpu") for part in parts])
+    mask = torch.from_numpy(joined(parts).mask)
+    both = mask[:, :, None] * mask[:, None, :]
+    torch.testing.assert_close(together * both, apart * both, atol=1e-5, rtol=1e-4)
+
+
+def test_what_the_engine_runs_is_what_was_trained(drawings: Path, tmp_path: Path) -> None:
+    arguments = Namespace(
+        data=drawings, out=tmp_path, steps=3, junctions=40, rate=1e-3, loss="exact", width=64,
+        every=2, minutes=10.0, seed=1, device="cpu", traced=None, traced_held_out=None,
+        traced_share=0.0, start=None,
+    )  # fmt: skip
+    train(arguments)
+    arguments.steps = 4
+    train(arguments)  # goes on from its checkpoint
+    assert len((tmp_path / "log.jsonl").read_text().splitlines()) == 3
+
+    model = load(tmp_path / "checkpoint.pt")
+    batch = Bank(Library.load(drawings, held_out=False), seed=3).batch(30, 8)
+    calibration = calibrate(model, [batch])
+    export(model, tmp_path / "routing.onnx")
+    (tmp_path / "routing.json").write_text(str(calibration).replace("'", '"'))
+    shipped, read = network.load(tmp_path)
+    assert read == calibration
+    for junctions, slots in ((1, 3), (17, 5), (40, 8)):
+        rng = np.random.default_rng(junctions)
+        arrays = {
+            "tokens": rng.normal(0, 1, (junctions, slots, TOKEN_SIZE)).astype(np.float32),
+            "pairs": rng.normal(0, 1, (junctions, slots, slots, PAIR_SIZE)).astype(np.float32),
+            "sibling": rng.integers(0, junctions * slots + 1, junctions * slots),
+            "mask": (rng.random((junctions, slots)) < 0.8).astype(np.float32),
+        }
+        for name, array in arrays.items():
+            shipped.setInput(array, name)
+        with torch.no_grad():
+            expected = model(*(torch.from_numpy(a) for a in arrays.values())).numpy()
+        np.testing.assert_allclose(shipped.forward(), expected, atol=1e-3)
