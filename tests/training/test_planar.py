@@ -120,7 +120,7 @@ def test_nothing_gives_an_empty_graph() -> None:
         assert graph.branch_count == len(partner) == 0
 
 
-@settings(deadline=None, max_examples=60)
+@settings(deadline=None, max_examples=30)
 @given(st.integers(0, 2**32 - 1), st.integers(1, 15))
 def test_random_scribbles_give_sound_graphs(seed: int, count: int) -> None:
     rng = np.random.default_rng(seed)
