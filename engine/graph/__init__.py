@@ -11,10 +11,13 @@ import numpy as np
 from ..settings import Settings
 from ..values import LineMaps, PlanarGraph
 from .cleanup import prune
+from .ends import place_ends
 from .junctions import resolve
 from .measure import measure
 from .ridge import Ridge
 from .skeleton import Chains, thin, trace
+from .smoothing import even, smooth
+from .tips import open_tips, split_bends
 from .topology import select
 
 
@@ -33,37 +36,25 @@ def build_graph(maps: LineMaps, pen_width: float, settings: Settings) -> PlanarG
     chains = trace(thin(ridge.mask()))
     if len(chains.pixels) == 0:
         return PlanarGraph.empty()
-    graph = _pixel_graph(chains, ridge.crest(chains.rows, chains.columns))
-    graph = prune(graph, 3.0)
-    return resolve(graph, ridge.value, 2.0)
+    graph = prune(_pixel_graph(chains, ridge), 3.0)
+    graph = split_bends(open_tips(graph, ridge.value, 2.0))
+    graph = even(resolve(graph, ridge.value, 2.0))
+    graph = place_ends(graph, ridge.value)
+    return even(smooth(even(graph), round(10 * settings.smoothing)))
 
 
-def _pixel_graph(chains: Chains, crest: np.ndarray) -> PlanarGraph:
-    """The skeleton as a graph; touching branch pixels and what short links join is one vertex."""
+def _pixel_graph(chains: Chains, ridge: Ridge) -> PlanarGraph:
+    """The skeleton as a graph: touching branch pixels are one vertex, points lie on the crest."""
+    crest = ridge.crest(chains.rows, chains.columns)
     starts, stops = chains.offsets[:-1], chains.offsets[1:] - 1
     ends = np.stack([chains.node[chains.pixels[starts]], chains.node[chains.pixels[stops]]], -1)
-    label = np.arange(chains.node_count)
-    degree = np.bincount(ends.ravel(), minlength=chains.node_count)
-    short = (np.diff(chains.offsets) <= 2) & (degree[ends] >= 3).all(1)
-    while True:
-        low = np.minimum(label[ends[short, 0]], label[ends[short, 1]])
-        before = label.copy()
-        np.minimum.at(label, ends[short, 0], low)
-        np.minimum.at(label, ends[short, 1], low)
-        if np.array_equal(before, label):
-            break
-    group = label[chains.node]
-    on_node = chains.node >= 0
-    count = np.maximum(np.bincount(group[on_node], minlength=chains.node_count), 1)
+    on_node = np.flatnonzero(chains.node >= 0)
+    node = chains.node[on_node]
+    count = np.bincount(node, minlength=chains.node_count)
     vertices = np.stack(
-        [
-            np.bincount(group[on_node], crest[on_node, k], minlength=chains.node_count) / count
-            for k in (0, 1)
-        ],
-        -1,
+        [np.bincount(node, crest[on_node, k], chains.node_count) / count for k in (0, 1)], -1
     )
     points = crest[chains.pixels]
-    ends = label[ends]
     points[starts], points[stops] = vertices[ends[:, 0]], vertices[ends[:, 1]]
     graph = PlanarGraph(
         vertices.astype(np.float32),
@@ -71,7 +62,8 @@ def _pixel_graph(chains: Chains, crest: np.ndarray) -> PlanarGraph:
         chains.offsets,
         ends.astype(np.int32),
     )
-    return select(graph, ~((ends[:, 0] == ends[:, 1]) & (np.diff(chains.offsets) <= 6)))
+    # What remains inside a branching: links between touching pixels of one vertex.
+    return select(graph, ~((ends[:, 0] == ends[:, 1]) & (np.diff(chains.offsets) <= 3)))
 
 
 __all__ = ["build_graph", "measure"]

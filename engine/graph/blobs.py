@@ -35,7 +35,7 @@ def find_blobs(graph: PlanarGraph, half: Halves, value: Array) -> tuple[Array, A
         value: (H, W) the smoothed centerline map.
 
     Returns:
-        (V,) int32 the blob of every vertex, -1 for ends; (B,) bool the branches inside a blob.
+        (V,) int32 the blob of every vertex; (B,) bool the branches inside a blob.
     """
     a, b = graph.ends.T
     fork = graph.degrees >= 3
@@ -51,7 +51,7 @@ def find_blobs(graph: PlanarGraph, half: Halves, value: Array) -> tuple[Array, A
             break
         inner[merged] = True
         blob = connected(len(fork), blob[graph.ends[merged]])[blob]
-    return np.where(fork, blob, -1), inner
+    return blob, inner
 
 
 def _best_mergers(

@@ -123,7 +123,7 @@ def fit_pairs(half: Halves, pairs: Array, value: Array) -> Fits:
     return fits
 
 
-def extend(points: Array, weights: Array, reach: Array) -> tuple[Array, Array, Array]:
+def extend(points: Array, weights: Array, reach: Array) -> Array:
     """Half-branches continued into their blob.
 
     Args:
@@ -131,8 +131,7 @@ def extend(points: Array, weights: Array, reach: Array) -> tuple[Array, Array, A
         reach: (K,) px to go on.
 
     Returns:
-        (K, SAMPLES, 2) points from the exit inward; (K, 2) a point and (K, 2) the unit direction
-        inward of the straight line that fits best near the exit.
+        (K, SAMPLES, 2) points from the exit inward.
     """
     fade = np.exp(-((np.arange(points.shape[1]) / 8.0) ** 2))
     weight = weights * fade
@@ -151,10 +150,7 @@ def extend(points: Array, weights: Array, reach: Array) -> tuple[Array, Array, A
     along = t * reach[:, None]
     across = _value(c, -along) - c[:, :1] * np.maximum(0.0, 1 - t) * (1 - t)
     side = np.stack([-inward[:, 1], inward[:, 0]], -1)
-    path = exit_point + along[..., None] * inward[:, None] + across[..., None] * side[:, None]
-    base = points[:, 0] + c[:, :1] * side
-    course = inward - c[:, 1:2] * side
-    return path, base, course / np.hypot(*course.T)[:, None]
+    return exit_point + along[..., None] * inward[:, None] + across[..., None] * side[:, None]
 
 
 def best_pairing(group: Array, pairs: Array, cost: Array) -> Array:

@@ -19,6 +19,7 @@ from .sampling import sample
 Array = np.ndarray
 
 WINDOW = 16  # points of a half-branch, outside its blob, that tell where it goes
+REACH = 3.5
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,7 +69,7 @@ def read_halves(graph: PlanarGraph, value: Array, pen: float) -> Halves:
         value: (H, W) the smoothed centerline map.
         pen: width of the ridge, px.
     """
-    dirty = _spoilt(graph, value.shape, 3.5 * SIGMA * max(1.0, pen / 2))
+    dirty = _spoilt(graph, value.shape, REACH * SIGMA * max(1.0, pen / 2))
     starts, stops = graph.offsets[:-1].astype(np.int64), graph.offsets[1:].astype(np.int64) - 1
     index = np.arange(len(graph.points))
     usable = np.where(dirty, len(index), index)
@@ -77,10 +78,13 @@ def read_halves(graph: PlanarGraph, value: Array, pen: float) -> Halves:
     clean = last >= 0
     middle = (starts + stops) // 2
     leave = np.stack([np.where(clean, first, middle), np.where(clean, last, middle)], -1).ravel()
-    # Without a clean point, the course is read a little nearer to the vertex.
-    quarter = (stops - starts) // 4
-    begin = np.stack([starts + quarter, stops - quarter], -1).ravel()
-    begin = np.where(np.repeat(clean, 2), leave, begin)
+    # Without a clean point, the course is read a little nearer to the vertex; near the other end
+    # it starts early enough to see a direction.
+    length = np.repeat(stops - starts, 2)
+    ahead = np.abs(leave - np.stack([starts, stops], -1).ravel())
+    ahead = np.where(np.repeat(clean, 2), ahead, length // 4)
+    ahead = np.minimum(ahead, np.maximum(length - 4, 0))
+    begin = np.stack([starts, stops], -1).ravel() + np.tile([1, -1], graph.branch_count) * ahead
     step = np.tile([1, -1], graph.branch_count)
     place = begin[:, None] + step[:, None] * np.arange(WINDOW)
     inside = (place >= np.repeat(starts, 2)[:, None]) & (place <= np.repeat(stops, 2)[:, None])
@@ -89,4 +93,4 @@ def read_halves(graph: PlanarGraph, value: Array, pen: float) -> Halves:
     points = graph.points[place].astype(np.float64)
     total = np.maximum(weights.sum(1), 1e-9)
     level = (sample(value, points) * weights).sum(1) / total
-    return Halves(leave.astype(np.int32), points, weights, level)
+    return Halves(begin.astype(np.int32), points, weights, level)

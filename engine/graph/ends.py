@@ -1,0 +1,78 @@
+"""Where a stroke begins and ends.
+
+Thinning eats the end of a line, more so the wider it is. Along its own direction the smoothed map
+falls off at the true end like a step, so the end is where half of the line's brightness is left.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from ..values import PlanarGraph
+from .sampling import sample
+
+Array = np.ndarray
+
+_BACK, _AHEAD, _STEP = 3.0, 3.0, 0.25  # px searched before and after the skeleton's end
+_INSIDE = 8  # points of the branch that give its direction and its brightness
+
+
+def place_ends(graph: PlanarGraph, value: Array) -> PlanarGraph:
+    """Move every free end along its line to where the line ends.
+
+    Args:
+        graph: points about 1 px apart.
+        value: (H, W) the smoothed centerline map.
+    """
+    counts = np.diff(graph.offsets)
+    free = np.flatnonzero((graph.degrees[graph.half_vertex] == 1) & (np.repeat(counts, 2) > 3))
+    if not len(free):
+        return graph
+    branch, step = free >> 1, np.where(free & 1, -1, 1)
+    tip = np.where(free & 1, graph.offsets[branch + 1] - 1, graph.offsets[branch]).astype(np.int64)
+    # The other end, when it is free too, must keep its own half.
+    room = np.minimum(counts[branch] - 1, _INSIDE)
+    far = tip + step * room
+    near = tip + step
+    inward = graph.points[far].astype(np.float64) - graph.points[near]
+    size = np.hypot(*inward.T)
+    outward = -inward / np.maximum(size, 1e-9)[:, None]
+    level = np.median(
+        sample(
+            value,
+            graph.points[tip[:, None] + step[:, None] * np.minimum(np.arange(2, 7), room[:, None])],
+        ),
+        axis=1,
+    )
+    reach = np.arange(-_BACK, _AHEAD + _STEP / 2, _STEP)
+    tips = graph.points[tip].astype(np.float64)
+    profile = sample(value, tips[:, None] + reach[:, None] * outward[:, None])
+    lit = profile > 0.5 * level[:, None]
+    # The first dark sample, seen from inside; exactly where the profile crosses half the level.
+    dark = np.where(lit.all(1), len(reach) - 1, np.argmin(lit, axis=1))
+    before = np.maximum(dark - 1, 0)
+    rows = np.arange(len(free))
+    high, low = profile[rows, before], profile[rows, dark]
+    part = np.clip((high - 0.5 * level) / np.maximum(high - low, 1e-6), 0, 1)
+    move = np.where(dark > 0, reach[before] + part * _STEP, -_BACK)
+    move = np.maximum(move, -0.5 * np.minimum(_BACK, room))
+    points, vertices = graph.points.copy(), graph.vertices.copy()
+    target = tips + move[:, None] * outward
+    keep = np.ones(len(points), bool)
+    # When the end moves back, it passes points that are no longer on the line.
+    for k in range(1, int(_BACK) + 1):
+        passed = (k < room - 1) & (
+            ((points[tip + step * np.minimum(k, room)] - target) * outward).sum(1) > -0.25
+        )
+        keep[(tip + step * k)[passed]] = False
+    points[tip] = target
+    vertices[graph.half_vertex[free]] = target
+    kept = np.add.reduceat(keep, graph.offsets[:-1])
+    return replace(
+        graph,
+        vertices=vertices,
+        points=points[keep],
+        offsets=np.concatenate([[0], np.cumsum(kept)]).astype(np.int32),
+    )

@@ -1,0 +1,110 @@
+"""Sharp bends and pointed tips, which a skeleton cuts short.
+
+Thinning rounds a sharp bend off, and turns the tip of a V, where its two lines overlap, into a
+stem. Both become vertices of degree two here, whose two arms are continued until they meet, as at
+a junction; `topology.join` makes one branch of them afterwards. The paper treats V-tips with three
+angle rules and joins both sides by an offset copy of the stem.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from ..values import PlanarGraph
+from .curves import ALONE, fit_pairs
+from .halves import read_halves
+from .topology import lengths, select
+
+Array = np.ndarray
+
+SPAN = 5  # points on either side that tell the angle of a bend
+SHARP = np.cos(np.radians(50.0))
+LONGEST = 24.0  # px; stem of a V that is a tip
+
+
+def open_tips(graph: PlanarGraph, value: Array, pen: float) -> PlanarGraph:
+    """Take away the stems of Vs: both lines really run on to the tip.
+
+    Args:
+        graph: the skeleton's graph.
+        value: (H, W) the smoothed centerline map.
+        pen: width of the ridge, px.
+    """
+    vertex, degree = graph.half_vertex, graph.degrees
+    long = np.repeat(lengths(graph), 2)
+    stem = np.flatnonzero(
+        (degree[vertex] == 3) & (degree[vertex[np.arange(len(vertex)) ^ 1]] == 1) & (long < LONGEST)
+    )
+    # A junction with several stems is no V.
+    once = np.bincount(vertex[stem], minlength=len(degree)) == 1
+    stem = stem[once[vertex[stem]]]
+    if not len(stem):
+        return graph
+    order, start = graph.halves_at
+    three = order[start[vertex[stem]][:, None] + np.arange(3)]
+    arms = three[three != stem[:, None]].reshape(-1, 2)
+    half = read_halves(graph, value, pen)
+    along = np.maximum(
+        fit_pairs(half, np.stack([arms[:, 0], stem], -1), value).cost,
+        fit_pairs(half, np.stack([arms[:, 1], stem], -1), value).cost,
+    )
+    across = fit_pairs(half, arms, value).cost
+    # How long two lines overlap depends on how fast they part.
+    parting = np.hypot(
+        *(half.points[arms, 0] - graph.vertices[vertex[stem]][:, None]).transpose(2, 0, 1)
+    )
+    tip = (along < ALONE) & (across > 2 * ALONE) & (long[stem] < 3.5 * parting.max(1) + 2.0)
+    stem = stem[tip]
+    # The fork moves to the tip; its arms follow when it is resolved.
+    vertices, points = graph.vertices.copy(), graph.points.copy()
+    vertices[vertex[stem]] = graph.vertices[vertex[stem ^ 1]]
+    points[graph.offsets[:-1]] = vertices[graph.ends[:, 0]]
+    points[graph.offsets[1:] - 1] = vertices[graph.ends[:, 1]]
+    keep = np.ones(graph.branch_count, bool)
+    keep[stem >> 1] = False
+    return select(replace(graph, vertices=vertices, points=points), keep)
+
+
+def split_bends(graph: PlanarGraph) -> PlanarGraph:
+    """Cut branches where they bend sharply; the new vertices have degree two."""
+    points = graph.points.astype(np.float64)
+    count = np.diff(graph.offsets)
+    index = np.arange(len(points))
+    first, last = np.repeat(graph.offsets[:-1], count), np.repeat(graph.offsets[1:] - 1, count)
+    room = np.flatnonzero((index - first >= SPAN) & (last - index >= SPAN))
+    if not len(room):
+        return graph
+    came = points[room] - points[room - SPAN]
+    goes = points[room + SPAN] - points[room]
+    size = np.hypot(*came.T) * np.hypot(*goes.T)
+    cosine = np.ones(len(points))
+    cosine[room] = (came * goes).sum(1) / np.maximum(size, 1e-9)
+    # Only the sharpest point of every bend.
+    near = np.lib.stride_tricks.sliding_window_view(
+        np.pad(cosine, SPAN, constant_values=1.0), 2 * SPAN + 1
+    )
+    sharp = np.flatnonzero((cosine < SHARP) & (near.argmin(1) == SPAN))
+    if not len(sharp):
+        return graph
+    fresh = len(graph.vertices) + np.arange(len(sharp))
+    # A bend is the last point of one piece and the first of the next.
+    where = np.concatenate([np.arange(len(points)), sharp])
+    where = np.sort(where, kind="stable")
+    cuts = np.sort(np.concatenate([graph.offsets[1:], sharp + 1]))
+    pieces = cuts + np.searchsorted(sharp, cuts - 1)
+    is_bend = np.isin(cuts, sharp + 1)
+    tail = np.empty(len(cuts), np.int64)
+    tail[is_bend] = fresh
+    tail[~is_bend] = graph.ends[:, 1]
+    head = np.empty(len(cuts), np.int64)
+    opens = np.concatenate([[False], is_bend[:-1]])
+    head[opens] = fresh
+    head[~opens] = graph.ends[:, 0]
+    return PlanarGraph(
+        np.concatenate([graph.vertices, graph.points[sharp]]),
+        graph.points[where],
+        np.concatenate([[0], pieces]).astype(np.int32),
+        np.stack([head, tail], -1).astype(np.int32),
+    )
