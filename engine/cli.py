@@ -73,6 +73,9 @@ def main(
             return _trace_sequence(options, sequence_writers or {})
         if options.command == "trace":
             return _trace(options, writers or {})
+        if options.command == "farm-job":
+            print(sequence.write_farm_job(options, _settings(options)))
+            return DONE
         if options.command == "inspect":
             return _inspect(options)
         return _evaluate(options, evaluate)
@@ -131,8 +134,37 @@ def _parser() -> argparse.ArgumentParser:
         action="store_true",
         help="leave out what an earlier run with --resume has done; replace what has changed since",
     )
+    trace.add_argument(
+        "--skip-failed", action="store_true", help="exit with 0 though some images failed"
+    )
     sequence.add_options(trace)
     _add_settings(trace)
+
+    job = commands.add_parser(
+        "farm-job",
+        help="write a render farm's job for a sequence",
+        description="Write an Open Job Description bundle that traces a sequence chunk by chunk on "
+        "many machines and joins the parts. Submit it with `deadline bundle submit DIR`, or try it "
+        "here with `openjd run DIR/template.json --step Join --run-dependencies -p Images=INPUT "
+        "-p OutputDir=FOLDER`.",
+    )
+    job.add_argument("folder", metavar="DIR", help="where the bundle goes")
+    job.add_argument("images", metavar="INPUT", help="the folder of images, or one file of pages")
+    job.add_argument(
+        "-o", "--output", required=True, metavar="OUT", help="the .blend that the job makes"
+    )
+    job.add_argument(
+        "--chunk", type=_count, default=10, metavar="N", help="images that one task traces"
+    )
+    job.add_argument(
+        "--call",
+        default="involute",
+        metavar="COMMAND",
+        help="how the workers call Involute, such as 'blender -b --command involute' "
+        "(default: %(default)s)",
+    )
+    sequence.add_frame_options(job)
+    _add_settings(job)
 
     inspect = commands.add_parser(
         "inspect",
@@ -238,7 +270,7 @@ def _trace(options: argparse.Namespace, writers: Mapping[str, Writer]) -> int:
     failed = [page for page, outcome in outcomes.items() if outcome.error]
     if options.report:
         _write_report(Path(options.report), outcomes, failures)
-    return FAILED if failed or failures else DONE
+    return FAILED if (failed or failures) and not options.skip_failed else DONE
 
 
 def _chosen(paths: Iterator[Path], frames: str | None) -> Iterator[Path]:
@@ -415,7 +447,7 @@ def _trace_sequence(options: argparse.Namespace, writers: Mapping[str, sequence.
         result = sequence.run(plan, writers, progress)
     if options.report:
         _write_json(Path(options.report), {"images": result.report()})
-    return FAILED if result.failed else DONE
+    return FAILED if result.failed and not options.skip_failed else DONE
 
 
 # --- inspect and evaluate --------------------------------------------------------------------

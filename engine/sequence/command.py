@@ -22,14 +22,25 @@ Writer = Callable[[str, Iterator[tuple[int, "Drawing"]], Path], None]
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
-    """The options of a sequence."""
-    group = parser.add_argument_group(
-        "sequences", "Numbered images, the pages of a TIFF or a movie become keyframes."
-    )
+    """The options of `involute trace` for a sequence."""
+    group = add_frame_options(parser)
     group.add_argument(
         "--sequence",
         action="store_true",
         help="the images are the frames of one animation; numbers missing in the names are holds",
+    )
+    group.add_argument(
+        "--parts",
+        metavar="DIR",
+        help="keep the drawing of every frame there and don't trace it again; without -o, do only "
+        "that (default with --resume: a folder beside OUT)",
+    )
+
+
+def add_frame_options(parser: argparse.ArgumentParser) -> argparse._ArgumentGroup:
+    """The options that say which frames there are; the group, for more of them."""
+    group = parser.add_argument_group(
+        "sequences", "Numbered images, or the pages of one TIFF, become keyframes."
     )
     group.add_argument(
         "--start", type=int, metavar="N", help="frame of the first drawing (default: its number)"
@@ -51,11 +62,30 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         action="store_false",
         help="keep each frame's own order and direction of strokes",
     )
-    group.add_argument(
-        "--parts",
-        metavar="DIR",
-        help="keep the drawing of every frame there and don't trace it again; without -o, do only "
-        "that (default with --resume: a folder beside OUT)",
+    return group
+
+
+def write_farm_job(options: argparse.Namespace, settings: Settings) -> Path:
+    """Do `involute farm-job`: check the frames here, write the bundle for the farm.
+
+    Raises:
+        InvoluteError: there are no such frames, or the bundle can't be written.
+    """
+    from .. import farm
+
+    frames = find_frames([options.images], options.start, options.step, options.frames)
+    words = farm.settings_options(settings)
+    words += [] if options.start is None else ["--start", str(options.start)]
+    words += [] if options.step == 1 else ["--step", str(options.step)]
+    words += ["--align"] * options.align + ["--no-follow"] * (not options.follow)
+    return farm.write_job(
+        Path(options.folder),
+        Path(options.images),
+        Path(options.output),
+        [frame.number for frame in frames],
+        options=words,
+        chunk=options.chunk,
+        command=options.call,
     )
 
 
@@ -116,16 +146,25 @@ def plan(options: argparse.Namespace, settings: Settings, suffixes: Mapping[str,
     parts = Path(options.parts) if options.parts else None
     if parts is None and options.resume:
         parts = target.path.with_name(target.path.name + ".parts")
-    frames = find_frames(options.inputs, options.start, options.step, options.frames)
+    frames = find_frames(
+        options.inputs, options.start, options.step, options.frames, options.skip_failed
+    )
     if options.align:
         settings = replace(settings, align=_first_anchors(options.inputs, settings))
     return Plan(tuple(frames), settings, target, parts, options.jobs, options.follow)
 
 
 def find_frames(
-    inputs: list[str], start: int | None = None, step: int = 1, frames: str | None = None
+    inputs: list[str],
+    start: int | None = None,
+    step: int = 1,
+    frames: str | None = None,
+    may_be_empty: bool = False,
 ) -> list[Frame]:
     """The frames that files, a folder or globs stand for, or the pages of one file.
+
+    Args:
+        may_be_empty: a choice of frames that none has is nothing to do, not an error.
 
     Raises:
         InvoluteError: there are none, or they are not of one sequence.
@@ -139,7 +178,7 @@ def find_frames(
         found = number_pages(paths[0], count, start=start, step=step, frames=chosen)
     else:
         found = number_frames(paths, start=start, step=step, frames=chosen)
-    if not found:
+    if not found and not (chosen and may_be_empty):
         raise InvoluteError(f"There are no frames {frames} among the images.")
     return found
 
