@@ -8,7 +8,7 @@ import numpy as np
 
 from ..values import Stroke
 from .bezier import fit
-from .lines import Lines
+from .lines import Lines, Pieces
 from .page import SAMPLES_PER_PEN, Page
 from .simplify import simplify
 from .smooth import corners, margin, smooth
@@ -100,15 +100,12 @@ def _between(place: Array, start: Array, stop: Array) -> Array:
 
 def _ink(page: Page, lines: Lines) -> tuple[Array, Array]:
     """Widths and opacity along the strokes, smoothed, and carried across junctions."""
-    values = np.column_stack([page.widths, page.opacity])[lines.sample]
     trust = page.trust[lines.sample] + 1e-6
-    place = np.arange(len(values))
+    values = np.column_stack([page.widths[lines.sample], page.opacity[lines.sample]])
+    weighted = np.column_stack([values * trust[:, None], trust])
     sigma = _WIDTH_BLUR * SAMPLES_PER_PEN
-    total, weight = values * trust[:, None], trust.copy()
-    for k in range(1, int(3 * sigma) + 1):
-        share = np.exp(-0.5 * (k / sigma) ** 2)
-        for other in (np.minimum(place + k, lines.last), np.maximum(place - k, lines.first)):
-            total += share * (values * trust[:, None])[other]
-            weight += share * trust[other]
-    values = total / weight[:, None]
+    runs = np.unique(lines.first)
+    pieces = Pieces(runs, lines.last[runs], round(3 * sigma))
+    pieces.put(pieces.blur(pieces.alone(weighted), sigma), weighted)
+    values = weighted[:, :2] / weighted[:, 2:]
     return values[:, 0], np.clip(values[:, 1], 0.0, 1.0)

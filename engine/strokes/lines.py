@@ -69,6 +69,47 @@ class Lines:
         )
 
 
+class Pieces:
+    """Stretches first..last of samples (ends included), each with a margin on both sides.
+
+    With the margins filled, a convolution is a sum of shifted slices over everything at once.
+    """
+
+    def __init__(self, first: Array, last: Array, margin: int) -> None:
+        count = last - first + 1 + 2 * margin
+        of_piece = np.repeat(np.arange(len(first)), count)
+        first, last = first[of_piece], last[of_piece]
+        place = first - margin + _ramp(count)
+        self.margin = margin
+        self.inside = (place >= first) & (place <= last)
+        self._edge = np.clip(place, first, last)
+        self._mirror = np.clip(2 * self._edge - place, first, last)
+
+    def mirrored(self, values: Array) -> Array:
+        """(M, D) values, going on point-mirrored at both ends of each stretch."""
+        found = values[self._mirror]
+        outside = ~self.inside
+        found[outside] = 2 * values[self._edge[outside]] - found[outside]
+        return found
+
+    def alone(self, values: Array) -> Array:
+        """(M, D) values, with zeros beyond the ends of each stretch."""
+        return np.where(self.inside[:, None], values[self._edge], 0.0)
+
+    def blur(self, values: Array, sigma: float) -> Array:
+        """A Gaussian of `sigma` samples, cut off at the margin: (M, D), valid inside."""
+        kernel = np.exp(-0.5 * (np.arange(self.margin + 1) / sigma) ** 2)
+        kernel /= kernel[0] + 2 * kernel[1:].sum()
+        total = kernel[0] * values
+        for k in range(1, self.margin + 1):
+            total[k:-k] += kernel[k] * (values[: -2 * k] + values[2 * k :])
+        return total
+
+    def put(self, values: Array, into: Array) -> None:
+        """Write the insides back to where they came from."""
+        into[self._edge[self.inside]] = values[self.inside]
+
+
 def _ramp(count: Array) -> Array:
     """0, 1, ..., count[0] - 1, 0, 1, ..., count[1] - 1, ..."""
     return np.arange(count.sum()) - np.repeat(np.cumsum(count) - count, count)

@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from .lines import Lines
+from .lines import Lines, Pieces
 from .page import SAMPLES_PER_PEN
 
 Array = np.ndarray
 
 WIDEST = 2.5  # pen widths; sigma at smoothing 1
-_JOINT = 0.8  # pen widths; least sigma where a stroke runs through a junction
+_JOINT = 0.75  # pen widths; least sigma where a stroke runs through a junction
 _JOINT_REACH = 2.0  # pen widths from the junction over which that holds
 _PULL = 4.0  # pen widths around a junction that follow it back to its place
 _CORNER_ARM = 1.5  # pen widths of line on both sides of a corner that are looked at
@@ -66,18 +66,16 @@ def smooth(points: Array, lines: Lines, corner: Array, smoothing: float) -> Arra
         points: (N, 2) in px; corner: (N,) bool from `corners`; smoothing: 0 to 1.
     """
     place = np.arange(len(points))
-    low = np.maximum.accumulate(np.where(corner, place, 0))
-    high = np.minimum.accumulate(np.where(corner, place, len(place))[::-1])[::-1]
-    bounds = low, high
-
-    wanted = _sharpened_blur(points, bounds, smoothing * WIDEST)
+    sigma = smoothing * WIDEST
+    wanted = _sharpened_blur(points, lines, corner, sigma)
     stops = np.flatnonzero(corner | lines.joint)
-    share = _hat(place, stops, lines.joint, _JOINT_REACH * SAMPLES_PER_PEN)
-    calm = _sharpened_blur(points, bounds, max(_JOINT, smoothing * WIDEST))
-    wanted += share[:, None] * (calm - wanted)
+    if sigma < _JOINT and lines.joint.any():
+        calm = _sharpened_blur(points, lines, corner, _JOINT)
+        share = _hat(place, stops, lines.joint, _JOINT_REACH * SAMPLES_PER_PEN)
+        wanted += share[:, None] * (calm - wanted)
 
     # Bring the junctions back to where they were, and the line around them with them.
-    reach = max(_PULL, smoothing * WIDEST * 1.5) * SAMPLES_PER_PEN
+    reach = max(_PULL, sigma * 1.5) * SAMPLES_PER_PEN
     return wanted + _pull(place, stops, points[stops] - wanted[stops], reach)
 
 
@@ -85,30 +83,23 @@ def _radius(sigma: float) -> int:
     return int(np.ceil(3 * sigma * SAMPLES_PER_PEN))
 
 
-def _sharpened_blur(points: Array, bounds: tuple[Array, Array], sigma: float) -> Array:
-    """Blur by sigma pen widths, twice over (2 G - G G), so that curves don't shrink."""
-    if sigma * SAMPLES_PER_PEN < 0.3:
+def _sharpened_blur(points: Array, lines: Lines, corner: Array, sigma: float) -> Array:
+    """Blur by sigma pen widths, twice over (2 G - G G), so that curves don't shrink.
+
+    Beyond a corner or end the line goes on mirrored at that point, which therefore stays.
+    """
+    sigma *= SAMPLES_PER_PEN
+    if sigma < 0.3:
         return points.copy()
-    once = _blur(points, bounds, sigma)
-    return 2 * once - _blur(once, bounds, sigma)
-
-
-def _blur(points: Array, bounds: tuple[Array, Array], sigma: float) -> Array:
-    """A Gaussian along the line; beyond a corner or end the line goes on point-mirrored."""
-    low, high = bounds
-    place = np.arange(len(points))
-    radius = _radius(sigma)
-    kernel = np.exp(-0.5 * (np.arange(radius + 1) / (sigma * SAMPLES_PER_PEN)) ** 2)
-    kernel /= kernel[0] + 2 * kernel[1:].sum()
-    total = kernel[0] * points
-    for k in range(1, radius + 1):
-        for ahead, edge, far in ((place + k, high, low), (place - k, low, high)):
-            beyond = (ahead - edge) * (1 if edge is high else -1) > 0
-            mirror = 2 * edge - ahead
-            mirror = np.maximum(mirror, far) if edge is high else np.minimum(mirror, far)
-            value = points[np.where(beyond, mirror, ahead)]
-            total += kernel[k] * np.where(beyond[:, None], 2 * points[edge] - value, value)
-    return total
+    stops = np.flatnonzero(corner)
+    inside = lines.first[stops[:-1]] == lines.first[stops[1:]]
+    pieces = Pieces(stops[:-1][inside], stops[1:][inside], _radius(sigma / SAMPLES_PER_PEN))
+    once = pieces.blur(pieces.mirrored(points), sigma)
+    blurred = np.empty_like(points)
+    pieces.put(once, blurred)
+    result = points.copy()
+    pieces.put(2 * once - pieces.blur(pieces.mirrored(blurred), sigma), result)
+    return result
 
 
 def _neighbours(place: Array, stops: Array) -> tuple[Array, Array]:
