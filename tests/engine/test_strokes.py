@@ -67,6 +67,23 @@ def test_strokes_partition_the_branches(scribble, seed: int, count: int) -> None
             assert partner[w.halves[-1] ^ 1] == w.halves[-1] ^ 1
 
 
+def test_a_loop_at_a_junction_closes_on_itself_or_runs_on() -> None:
+    ring = _circle(30.0)  # starts and ends where the stem touches it
+    graph, partner = graph_from_strokes([ring, np.array([[130.0, 100], [190, 100]])])
+    assert sorted(graph.degrees.tolist()) == [1, 3]
+    assert sorted((len(w.halves), w.closed) for w in walk(partner)) == [(1, False), (1, True)]
+    loop = int(np.flatnonzero(graph.ends[:, 0] == graph.ends[:, 1])[0])
+    stem = next(int(h) for h in graph.halves_of(graph.junctions[0]) if h >> 1 != loop)
+    lasso = np.arange(4)
+    lasso[stem], lasso[2 * loop] = 2 * loop, stem
+    (only,) = walk(lasso)
+    assert not only.closed
+    assert sorted(h >> 1 for h in only.halves) == [0, 1]
+    (stroke,) = build(Page.of(graph, Settings()), [only])
+    assert np.hypot(*(stroke.points - [130, 100]).T).min(initial=9) < 1e-3
+    assert np.hypot(*(stroke.points[[0, -1]] - [130, 100]).T).min() < 1e-3
+
+
 @given(st.integers(0, 500))
 def test_walking_some_branches_gives_their_strokes(scribble, seed: int) -> None:
     graph, partner = scribble(seed)
