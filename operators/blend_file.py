@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+import os
+import sys
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -109,14 +112,28 @@ def _save(path: str | PathLike[str]) -> None:
 
     target = Path(fspath(path)).absolute()
     try:
-        # The name with .blend first: Blender would add the ending by itself.
-        bpy.ops.wm.save_as_mainfile(
-            filepath=str(target), check_existing=False, copy=True, compress=True
-        )
+        with _quiet():
+            bpy.ops.wm.save_as_mainfile(
+                filepath=str(target), check_existing=False, copy=True, compress=True
+            )
     except RuntimeError as error:
         raise InvoluteError(f"Can't write {target}: {_reason(error)}") from error
     if not target.exists():
         raise InvoluteError(f"Can't write {target}; is the disk full?")
+
+
+@contextmanager
+def _quiet() -> Iterator[None]:
+    """Keep Blender's own "Saved copy as" off the terminal: it names the temporary file."""
+    sys.stdout.flush()
+    kept = os.dup(1)
+    with open(os.devnull, "wb") as nowhere:
+        os.dup2(nowhere.fileno(), 1)
+    try:
+        yield
+    finally:
+        os.dup2(kept, 1)
+        os.close(kept)
 
 
 def _camera_on(size: tuple[int, int]) -> object:

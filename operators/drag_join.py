@@ -6,7 +6,8 @@ import bpy
 import numpy as np
 
 from .junction_operator import JunctionOperator
-from .under_mouse import half_under
+from .picking import nearest_pair
+from .under_mouse import halves_under
 from .view_state import Shown, make_current, redraw, view_of
 
 
@@ -22,11 +23,11 @@ class INVOLUTE_OT_drag_join(JunctionOperator, bpy.types.Operator):
             return {"CANCELLED"}
         region = context.region
         start = event.mouse_prev_press_x - region.x, event.mouse_prev_press_y - region.y
-        found = half_under(context, start)
+        found = halves_under(context, start)
         if found is None:
             return {"PASS_THROUGH"}
         shown, self._first = found
-        make_current(context, shown, _junction_of(shown, self._first))
+        make_current(context, shown, _junction_of(shown, min(self._first, key=self._first.get)))
         shown.view.drag = (*start, event.mouse_region_x, event.mouse_region_y)
         context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
@@ -42,15 +43,15 @@ class INVOLUTE_OT_drag_join(JunctionOperator, bpy.types.Operator):
             return self._leave(context, {"CANCELLED"})
         if event.type != "LEFTMOUSE" or event.value != "RELEASE":
             return {"RUNNING_MODAL"}
-        found = half_under(context, mouse)
-        if found is None or found[1] == self._first:
-            return self._leave(context, {"CANCELLED"})
+        found = halves_under(context, mouse)
         self._leave(context, {"FINISHED"})
-        try:
-            return bpy.ops.involute.join("EXEC_DEFAULT", True, first=self._first, second=found[1])
-        except RuntimeError as problem:  # what the other operator reported
-            self.report({"ERROR"}, str(problem).strip().removeprefix("Error: "))
+        vertex = found[0].trace.drawing.graph.half_vertex if found else None
+        pair = nearest_pair(self._first, found[1], vertex) if found else None
+        if pair is None:
+            self.report({"INFO"}, "Drag from one line to another that meets it at a junction.")
             return {"CANCELLED"}
+        make_current(context, found[0], _junction_of(found[0], pair[0]))
+        return bpy.ops.involute.join("EXEC_DEFAULT", True, first=pair[0], second=pair[1])
 
     def _leave(self, context: bpy.types.Context, result: set[str]) -> set[str]:
         view_of(context).drag = (0, 0, 0, 0)
@@ -68,11 +69,13 @@ class INVOLUTE_OT_separate_under_mouse(JunctionOperator, bpy.types.Operator):
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         if context.region_data is None:
             return {"CANCELLED"}
-        found = half_under(context, (event.mouse_region_x, event.mouse_region_y))
+        found = halves_under(context, (event.mouse_region_x, event.mouse_region_y))
         if found is None:
             return {"PASS_THROUGH"}
-        make_current(context, found[0], _junction_of(*found))
-        return bpy.ops.involute.separate("EXEC_DEFAULT", True, half=found[1])
+        shown, near = found
+        half = min(near, key=near.get)
+        make_current(context, shown, _junction_of(shown, half))
+        return bpy.ops.involute.separate("EXEC_DEFAULT", True, half=half)
 
 
 def _junction_of(shown: Shown, half: int) -> int:

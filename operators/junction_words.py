@@ -44,5 +44,12 @@ def sentence(names: dict[int, str], pairs: Iterable[tuple[int, int]]) -> str:
     return ", ".join(joined)
 
 
+def percent(probability: float) -> str:
+    """A probability for people; what is possible never reads 0 %, what is doubtful never 100 %."""
+    if 0.0 < probability < 0.01:
+        return "< 1 %"
+    return "> 99 %" if 0.99 < probability < 0.9995 else f"{100 * probability:.0f} %"
+
+
 def _letter(number: int) -> str:
     return chr(ord("A") + number % 26) * (1 + number // 26)

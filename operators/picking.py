@@ -33,16 +33,8 @@ def nearest(places: Array, mouse: tuple[float, float], radius: float) -> int:
     return best if distance[best] <= radius else -1
 
 
-def nearest_line(lines: list[Array], mouse: tuple[float, float], radius: float) -> int:
-    """The polyline nearest to the mouse within a radius; -1 when there is none."""
-    distances = [_to_line(line, np.asarray(mouse, float)) for line in lines]
-    if not distances or not np.isfinite(distances).any():
-        return -1
-    best = int(np.nanargmin(distances))
-    return best if distances[best] <= radius else -1
-
-
-def _to_line(line: Array, mouse: Array) -> float:
+def distance_to_line(line: Array, mouse: tuple[float, float]) -> float:
+    """How far the mouse is from a polyline; infinite where none of it can be seen."""
     line = line[np.isfinite(line).all(axis=1)]
     if len(line) < 2:
         return np.inf
@@ -50,3 +42,21 @@ def _to_line(line: Array, mouse: Array) -> float:
     share = ((mouse - start) * side).sum(1) / np.maximum((side**2).sum(1), 1e-12)
     foot = start + np.clip(share, 0, 1)[:, None] * side
     return float(np.linalg.norm(foot - mouse, axis=1).min())
+
+
+def nearest_pair(
+    first: dict[int, float], second: dict[int, float], vertex: Array
+) -> tuple[int, int] | None:
+    """Of two sets of half-branches the nearest two that meet at one vertex.
+
+    Args:
+        first, second: half-branches and their distances from where a drag began and ended.
+        vertex: (2B,) where each half-branch starts.
+    """
+    meeting = [
+        (first[a] + second[b], a, b)
+        for a in first
+        for b in second
+        if a != b and vertex[a] == vertex[b]
+    ]
+    return min(meeting)[1:] if meeting else None

@@ -65,6 +65,12 @@ def keys_at(data: bpy.types.ID, frame: int) -> list[int]:
     return [key for key, _ in counts.most_common() if key and str(key) in known]
 
 
+def keys_at_exactly(data: bpy.types.ID, frame: int) -> list[int]:
+    """The same, but only when a keyframe stands at that very frame."""
+    there = any(key.frame_number == frame for layer in data.layers for key in layer.frames)
+    return keys_at(data, frame) if there else []
+
+
 def load(data: bpy.types.ID, key: int) -> Trace:
     """The trace of that key.
 

@@ -162,7 +162,7 @@ class INVOLUTE_OT_trace(TraceSettings, bpy.types.Operator):
             if not gp.is_grease_pencil(obj) or not obj.data.is_editable:
                 raise InvoluteError("Make a Grease Pencil object of this file the active one.")
             for result in done:
-                put(obj, result, frame)
+                put(obj, result, frame, alone=self.as_keyframes)
             return
         if context.mode != "OBJECT":
             bpy.ops.object.mode_set(mode="OBJECT")
@@ -171,7 +171,7 @@ class INVOLUTE_OT_trace(TraceSettings, bpy.types.Operator):
             if not (self.as_keyframes and objects):
                 objects.append(new_object(result.source.name))
                 context.collection.objects.link(objects[-1])
-            put(objects[-1], result, frame)
+            put(objects[-1], result, frame, alone=self.as_keyframes)
         for other in context.selected_objects:
             other.select_set(False)
         for obj in objects:
@@ -215,8 +215,8 @@ def new_object(name: str) -> bpy.types.Object:
     return bpy.data.objects.new(name, gp.collection().new(name))
 
 
-def put(obj: bpy.types.Object, result: worker.Result, frame: int) -> None:
-    """Write a traced drawing into an object, strokes and routing state."""
+def put(obj: bpy.types.Object, result: worker.Result, frame: int, *, alone: bool) -> None:
+    """Write a traced drawing into an object, strokes and routing state; see `gp.write`."""
     source, drawing = result.source, result.drawing
     empty = bpy.data.objects.get(source.empty) if source.empty else None
     placement: Placement = front_view(drawing.size)
@@ -224,7 +224,9 @@ def put(obj: bpy.types.Object, result: worker.Result, frame: int) -> None:
         placement = on_empty(empty, drawing.size)
         obj.matrix_world = empty.matrix_world.copy()
     key = state.add(obj.data, drawing, placement, source.name)
-    gp.write(obj.data, frame if source.frame is None else source.frame, drawing, placement, key)
+    if source.frame is not None:
+        frame = source.frame
+    gp.write(obj.data, frame, drawing, placement, key, alone=alone)
 
 
 def _show_progress(context: bpy.types.Context, job: worker.Worker) -> None:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .picking import nearest, nearest_line, project
+from .picking import distance_to_line, nearest, project
 from .view_state import Shown, shown_in
 
 if TYPE_CHECKING:
@@ -40,22 +40,21 @@ def junction_under(context: bpy.types.Context, mouse: Mouse) -> tuple[Shown, int
     return None
 
 
-def half_under(context: bpy.types.Context, mouse: Mouse) -> tuple[Shown, int] | None:
-    """The half-branch nearest to the mouse, of the junctions around it."""
+def halves_under(context: bpy.types.Context, mouse: Mouse) -> tuple[Shown, dict[int, float]] | None:
+    """The half-branches near the mouse with their distances, of the junctions around it."""
     radius = _LINE_RADIUS * context.preferences.system.ui_scale
     for shown in _drawings(context):
         places = places_on_screen(context, shown, shown.table.positions)
         distance = np.nan_to_num(np.linalg.norm(places - mouse, axis=1), nan=np.inf)
         around = np.argsort(distance)[:_NEIGHBORS]
         junctions = [shown.trace.drawing.junctions[k] for k in around]
-        halves = [half for junction in junctions for half in junction.half_branches]
-        lines = [
-            places_on_screen(context, shown, near_part(shown.trace.drawing, half))
-            for half in halves
-        ]
-        found = nearest_line(lines, mouse, radius)
-        if found >= 0:
-            return shown, halves[found]
+        near = {}
+        for half in (half for junction in junctions for half in junction.half_branches):
+            line = places_on_screen(context, shown, near_part(shown.trace.drawing, half))
+            if (away := distance_to_line(line, mouse)) <= radius:
+                near[half] = away
+        if near:
+            return shown, near
     return None
 
 

@@ -11,7 +11,7 @@ from gpu_extras.batch import batch_for_shader
 
 from ..operators.cards import Card
 from ..operators.choose import cards_of
-from ..operators.junction_words import letters, sentence
+from ..operators.junction_words import letters, percent, sentence
 from ..operators.under_mouse import places_on_screen
 from .colors import LOOSE
 from .overlay_geometry import labels, routes
@@ -45,7 +45,7 @@ def draw(context: bpy.types.Context, shown: Shown) -> None:
             _card(card, number == shown.view.preview, way.pairs == junction.pairs, scale)
             _sketch(shown, way.pairs, card, scale)
             _write(
-                f"{100 * way.probability:.0f} %",
+                percent(way.probability),
                 card.x + 8 * scale,
                 card.y + card.height - 18 * scale,
                 13 * scale,

@@ -11,14 +11,14 @@ from ..operators.ask_again import INVOLUTE_OT_ask_again
 from ..operators.choose import INVOLUTE_OT_choose
 from ..operators.go_to_junction import INVOLUTE_OT_go_to_junction, INVOLUTE_OT_step_junction
 from ..operators.join import INVOLUTE_OT_join
-from ..operators.junction_words import angle, arrow, letters, sentence
+from ..operators.junction_words import angle, arrow, letters, percent, sentence
 from ..operators.lock import INVOLUTE_OT_lock
 from ..operators.preview import INVOLUTE_OT_preview
 from ..operators.reroute import INVOLUTE_OT_reroute
 from ..operators.separate import INVOLUTE_OT_separate
 from ..operators.view_state import Shown, shown_in
 
-_ROWS = 8
+_ROWS = 6
 
 
 class _Sidebar:
@@ -96,10 +96,10 @@ def _list(layout: bpy.types.UILayout, shown: Shown, listed: np.ndarray) -> None:
     for index in listed[page * _ROWS : (page + 1) * _ROWS].tolist():
         row = box.row(align=True)
         is_locked = bool(shown.table.locked[index])
-        percent = f"{100 * (1 - shown.table.doubt[index]):.0f} %"
+        certain = percent(1.0 - float(shown.table.doubt[index]))
         button = row.operator(
             INVOLUTE_OT_go_to_junction.bl_idname,
-            text=f"{index}:  {shown.table.degree[index]} lines,  {percent}",
+            text=f"{index}:  {shown.table.degree[index]} lines,  {certain}",
             icon="LOCKED" if is_locked else "NONE",
             depress=index == shown.view.junction,
             translate=False,
@@ -124,7 +124,7 @@ def _alternatives(layout: bpy.types.UILayout, shown: Shown, names: dict[int, str
         eye.alternative = number
         button = row.operator(
             INVOLUTE_OT_reroute.bl_idname,
-            text=f"{100 * way.probability:.0f} %   {sentence(names, way.pairs)}",
+            text=f"{percent(way.probability)}   {sentence(names, way.pairs)}",
             depress=way.pairs == junction.pairs,
             translate=False,
         )

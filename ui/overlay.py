@@ -117,7 +117,11 @@ def _draw_rings(context: bpy.types.Context, shown: Shown) -> None:
         _batches[key] = batch
         while len(_batches) > _MAX_BATCHES:
             _batches.popitem(last=False)
-    _set_up(context, shader, 2.0)
+    dark = gpu.shader.from_builtin("POLYLINE_UNIFORM_COLOR")
+    _set_up(context, dark, 4.0)  # an edge, so that rings show on paper and on ink alike
+    dark.uniform_float("color", (0.0, 0.0, 0.0, 0.35))
+    batch.draw(dark)
+    _set_up(context, shader, 2.2)
     batch.draw(shader)
     _tidy_up()
 

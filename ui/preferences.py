@@ -31,7 +31,7 @@ class INVOLUTE_AP_preferences(bpy.types.AddonPreferences):
     ring_size: FloatProperty(
         name="Ring Size",
         description="Radius of a certain junction's ring, in pen widths",
-        default=1.6,
+        default=1.0,
         min=0.2,
         max=20.0,
     )

@@ -16,10 +16,22 @@ GROUPS = (
 
 def draw_settings(layout: bpy.types.UILayout, source: object) -> None:
     """Draw the properties of a `TraceSettings`."""
-    for title, names in GROUPS:
-        header, body = layout.panel(f"involute_{names[0]}", default_closed=False)
+    for number, (title, names) in enumerate(GROUPS):
+        header, body = layout.panel(f"involute_settings_{number}", default_closed=True)
         header.label(text=title)
         if body is not None:
             column = body.column()
             for name in names:
-                column.prop(source, name)
+                if name == "ignore_inks":
+                    _flags(column, source, name)
+                else:
+                    column.prop(source, name)
+
+
+def _flags(layout: bpy.types.UILayout, source: object, name: str) -> None:
+    """A choice of several, folded into a menu that says what is chosen."""
+    split = layout.split(factor=0.4)
+    split.alignment = "RIGHT"
+    split.label(text=source.bl_rna.properties[name].name)
+    chosen = ", ".join(sorted(value.title() for value in getattr(source, name)))
+    split.prop_menu_enum(source, name, text=chosen or "None")

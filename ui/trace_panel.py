@@ -65,18 +65,14 @@ class INVOLUTE_PT_summary(bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         shown: Shown = shown_in(context)
         drawing = shown.trace.drawing
-        facts = (
-            ("Strokes", f"{len(drawing.strokes):,}"),
-            ("Solid blacks", f"{len(drawing.fills):,}"),
-            ("Junctions", f"{len(shown.table):,}"),
-            ("Doubtful", f"{len(drawing.doubtful):,}"),
-            ("Seconds", f"{sum(drawing.seconds.values()):.1f}"),
-        )
+        seconds = sum(drawing.seconds.values())
         column = self.layout.column(align=True)
-        for name, value in facts:
-            split = column.split(factor=0.55)
-            split.label(text=name)
-            split.label(text=value, translate=False)
+        counts = f"{len(drawing.strokes):,} strokes, {len(drawing.fills):,} solids"
+        column.label(text=f"{counts}, {seconds:.1f} s", translate=False)
+        column.label(
+            text=f"{len(shown.table):,} junctions, {len(drawing.doubtful):,} doubtful",
+            translate=False,
+        )
 
 
 def _button(

@@ -168,10 +168,16 @@ def test_picking_needs_no_gpu(part):
     behind = picking.project(points, np.diag([1, 1, 1, -1.0]), 200, 100)
     assert np.isnan(behind).all()
     assert picking.nearest(behind, (0, 0), 10) == -1
-    lines = [places[[0, 1]], places[[0, 2]]]
-    assert picking.nearest_line(lines, (75, 53), 10) == 1
-    assert picking.nearest_line(lines, (125, 70), 10) == 0
-    assert picking.nearest_line(lines, (125, 20), 10) == -1
+    assert picking.distance_to_line(places[[0, 2]], (75, 53)) == pytest.approx(3)
+    assert picking.distance_to_line(behind, (75, 53)) == np.inf
+
+
+def test_a_drag_joins_the_nearest_lines_that_meet(part):
+    pair = part("operators.picking").nearest_pair
+    vertex = np.array([0, 1, 0, 2, 1, 2])
+    assert pair({0: 5.0, 1: 2.0}, {2: 1.0, 3: 0.5}, vertex) == (0, 2)
+    assert pair({0: 5.0, 1: 2.0}, {2: 9.0, 4: 1.0}, vertex) == (1, 4)
+    assert pair({0: 1.0}, {0: 1.0, 3: 0.5}, vertex) is None
 
 
 @pytest.mark.parametrize("anchor", [(400, 300), (5, 5), (795, 595), (-500, 2000)])

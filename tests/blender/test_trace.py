@@ -28,7 +28,7 @@ def page(part, path: Path, shift: int = 0) -> Path:
     paper = np.full((200, 260), 245, np.uint8)
     cv2.line(paper, (20 + shift, 30), (240, 170), 20, 3, cv2.LINE_AA)
     cv2.line(paper, (30, 160), (230, 20 + shift), 20, 3, cv2.LINE_AA)
-    cv2.circle(paper, (60, 95), 14, 20, -1, cv2.LINE_AA)
+    cv2.ellipse(paper, (45, 95), (24, 34), 20, 0, 360, 20, -1, cv2.LINE_AA)
     cv2.imwrite(str(path), paper)
     return path
 

@@ -1,0 +1,286 @@
+"""Trace numbered drawings, or what an image Empty plays, as keyframes of one object."""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+
+import bpy
+from bpy.props import BoolProperty, CollectionProperty, IntProperty, StringProperty
+from bpy_extras.io_utils import ImportHelper
+
+from ..engine import InvoluteError
+from ..engine.sequence import Frame
+from . import grease_pencil as gp
+from . import state, worker
+from .placement import front_view, on_empty
+from .playing import frames_of_empty, frames_of_files, plays_frames
+from .sequence_job import Result, SequenceJob, parts_folder
+from .sources import SUFFIXES
+from .trace import new_object
+from .trace_settings import TraceSettings, as_values, engine_settings
+
+
+class SequenceSettings:
+    """Mixin: what the frames are."""
+
+    own_start: BoolProperty(
+        name="Start At",
+        description="Put the first drawing at a frame of your choice instead of its own number",
+        default=False,
+    )
+    start: IntProperty(name="Start Frame", description="Frame of the first drawing", default=1)
+    step: IntProperty(
+        name="Step",
+        description="Frames from one number to the next; 2 animates on twos",
+        default=1,
+        min=1,
+        soft_max=8,
+    )
+    align: BoolProperty(
+        name="Align by Peg Holes",
+        description="Bring all pages to where the peg holes or registration marks of the first lie",
+        default=False,
+    )
+    follow: BoolProperty(
+        name="Steady Strokes",
+        description="Give neighboring frames the same order and direction of strokes, "
+        "so that Interpolate pairs them rightly",
+        default=True,
+    )
+    jobs: IntProperty(
+        name="Processes",
+        description="Drawings traced at the same time; 0 uses every processor core",
+        default=0,
+        min=0,
+        max=256,
+    )
+
+
+class INVOLUTE_OT_trace_sequence(SequenceSettings, TraceSettings, bpy.types.Operator):
+    """Turn numbered drawings into keyframes of one Grease Pencil object, in the background"""
+
+    bl_idname = "involute.trace_sequence"
+    bl_label = "Trace Sequence"
+    bl_options = {"REGISTER", "UNDO"}
+
+    directory: StringProperty(
+        name="Folder",
+        description="Folder of numbered drawings; empty for what the active image Empty plays",
+        subtype="DIR_PATH",
+        options={"SKIP_SAVE"},
+    )
+    files: CollectionProperty(
+        type=bpy.types.OperatorFileListElement, options={"SKIP_SAVE", "HIDDEN"}
+    )
+    resume: BoolProperty(
+        name="Only What Changed",
+        description="Fill the active object; keyframes whose drawing has not changed stay as "
+        "they are, with all that was done to them",
+        default=False,
+        options={"SKIP_SAVE"},
+    )
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        if bpy.app.background:
+            return self.execute(context)
+        if worker.current is not None:
+            self.report({"ERROR"}, "Another trace is running; wait for it or cancel it.")
+            return {"CANCELLED"}
+        try:
+            worker.current = self._begin(context)
+        except InvoluteError as problem:
+            self.report({"ERROR"}, str(problem))
+            return {"CANCELLED"}
+        worker.current.start()
+        self._timer = context.window_manager.event_timer_add(0.2, window=context.window)
+        context.window_manager.modal_handler_add(self)
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        # Escape is not listened to: the artist goes on working, and presses it for other reasons.
+        if event.type != "TIMER":
+            return {"PASS_THROUGH"}
+        job = worker.current
+        alive = job.running  # before the queue is read: what comes after is read next time
+        self._take(context, job.results())
+        _redraw_sidebars(context)
+        if alive:
+            return {"PASS_THROUGH"}
+        self._stop(context)
+        return self._finish(context, job)
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        """Blender itself ends the operator, for example when a file is opened."""
+        worker.current.cancel()
+        self._stop(context)
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        try:
+            job = self._begin(context)
+        except InvoluteError as problem:
+            self.report({"ERROR"}, str(problem))
+            return {"CANCELLED"}
+        job.run()
+        self._take(context, job.results())
+        return self._finish(context, job)
+
+    def draw(self, context: bpy.types.Context) -> None:
+        from ..ui.settings_layout import draw_sequence, draw_settings
+
+        self.layout.use_property_split = True
+        self.layout.use_property_decorate = False
+        draw_sequence(self.layout, self)
+        draw_settings(self.layout, self)
+
+    def _begin(self, context: bpy.types.Context) -> SequenceJob:
+        """Read all that Blender knows; what then runs needs nothing of it."""
+        self._name, self._empty, self._target = "", "", ""
+        self._written, self._kept, self._failed = 0, 0, []
+        options = {"start": self.start if self.own_start else None, "step": self.step}
+        empty = context.active_object
+        if self.directory:
+            folder = Path(bpy.path.abspath(self.directory))
+            names = [file.name for file in self.files if file.name]
+            frames = frames_of_files(folder, names, **options)
+            self._name = folder.name or "Sequence"
+        elif plays_frames(empty):
+            frames = frames_of_empty(empty, **options)
+            self._name, self._empty = empty.name, empty.name
+        else:
+            raise InvoluteError(
+                "Choose a folder of drawings, or select an Empty that plays images or a movie."
+            )
+        if self.resume:
+            if not gp.is_grease_pencil(context.active_object):
+                raise InvoluteError("Make the Grease Pencil object of the sequence the active one.")
+            self._target = context.active_object.name
+        return SequenceJob(
+            frames,
+            _aligned(engine_settings(self), frames) if self.align else engine_settings(self),
+            jobs=self.jobs,
+            parts=parts_folder(_cache(), frames),
+            follow=self.follow,
+        )
+
+    def _take(self, context: bpy.types.Context, results: Sequence[Result]) -> None:
+        """Write the keyframes that have come."""
+        for frame, drawing, unchanged in results:
+            if isinstance(drawing, InvoluteError):
+                self._failed.append(frame)
+                self.report({"WARNING"}, f"Frame {frame}: {drawing}")
+                continue
+            obj = self._object(context)
+            if self.resume and unchanged and state.keys_at_exactly(obj.data, frame):
+                self._kept += 1
+                continue
+            empty = bpy.data.objects.get(self._empty)
+            place = on_empty(empty, drawing.size) if empty else front_view(drawing.size)
+            key = state.add(obj.data, drawing, place, f"{self._name} {frame}")
+            gp.write(obj.data, frame, drawing, place, key, alone=True)
+            self._written += 1
+
+    def _object(self, context: bpy.types.Context) -> bpy.types.Object:
+        """The object that takes the keyframes; looked up by name, since undo replaces objects."""
+        obj = bpy.data.objects.get(self._target) if self._target else None
+        if obj is None:
+            obj = new_object(self._name)
+            context.scene.collection.objects.link(obj)
+            self._target = obj.name
+            if empty := bpy.data.objects.get(self._empty):
+                obj.matrix_world = empty.matrix_world.copy()
+        return obj
+
+    def _finish(self, context: bpy.types.Context, job: SequenceJob) -> set[str]:
+        if job.problem:
+            self.report({"ERROR"}, job.problem)
+        if not self._written and not self._kept:
+            if not (job.problem or job.cancelled):
+                self.report({"ERROR"}, "None of the frames could be traced.")
+            return {"CANCELLED"}
+        if context.mode == "OBJECT":
+            for other in context.selected_objects:
+                other.select_set(False)
+            obj = self._object(context)
+            obj.select_set(True)
+            context.view_layer.objects.active = obj
+        said = f"{self._written} keyframes"
+        said += f", {self._kept} kept" if self._kept else ""
+        said += f", {len(self._failed)} frames failed" if self._failed else ""
+        self.report({"INFO"}, said + (", then cancelled" if job.cancelled else ""))
+        return {"FINISHED"}
+
+    def _stop(self, context: bpy.types.Context) -> None:
+        context.window_manager.event_timer_remove(self._timer)
+        worker.current = None
+        _redraw_sidebars(context)
+
+
+class INVOLUTE_OT_import_sequence(
+    SequenceSettings, TraceSettings, bpy.types.Operator, ImportHelper
+):
+    """Choose a folder of numbered drawings, or some of them, and trace them as keyframes"""
+
+    bl_idname = "involute.import_sequence"
+    bl_label = "Trace Drawing Sequence"
+    bl_options = {"REGISTER"}  # the trace that it starts is the step to undo
+
+    filename_ext = ""
+    filter_glob: StringProperty(
+        default=";".join(f"*{suffix}" for suffix in SUFFIXES), options={"HIDDEN"}
+    )
+    directory: StringProperty(subtype="DIR_PATH", options={"SKIP_SAVE", "HIDDEN"})
+    files: CollectionProperty(
+        type=bpy.types.OperatorFileListElement, options={"SKIP_SAVE", "HIDDEN"}
+    )
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        options = {name: getattr(self, name) for name in SequenceSettings.__annotations__}
+        names = [file.name for file in self.files if file.name]
+        try:
+            result = bpy.ops.involute.trace_sequence(
+                "EXEC_DEFAULT" if bpy.app.background else "INVOKE_DEFAULT",
+                directory=self.directory or str(Path(self.filepath).parent),
+                # One file alone stands for all that are numbered like it.
+                files=[{"name": name} for name in names] if len(names) > 1 else [],
+                **options,
+                **as_values(self),
+            )
+        except RuntimeError as problem:  # what the trace reported
+            self.report({"ERROR"}, str(problem).strip().removeprefix("Error: "))
+            return {"CANCELLED"}
+        return {"CANCELLED"} if result == {"CANCELLED"} else {"FINISHED"}
+
+    def draw(self, context: bpy.types.Context) -> None:
+        INVOLUTE_OT_trace_sequence.draw(self, context)
+
+
+def _aligned(settings: object, frames: Sequence[Frame]) -> object:
+    from dataclasses import replace
+
+    from ..engine.registration import first_anchors
+
+    return replace(settings, align=first_anchors(frames[0].path, frames[0].page, settings))
+
+
+def _cache() -> Path:
+    """The extension's own folder in the user's; a temporary one where there is none."""
+    try:
+        return Path(
+            bpy.utils.extension_path_user(
+                __package__.rpartition(".")[0], path="sequences", create=True
+            )
+        )
+    except ValueError:
+        return Path(tempfile.gettempdir(), "involute-sequences")
+
+
+def _redraw_sidebars(context: bpy.types.Context) -> None:
+    for window in context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type == "VIEW_3D":
+                area.tag_redraw()
+
+
+CLASSES = (INVOLUTE_OT_trace_sequence, INVOLUTE_OT_import_sequence)
