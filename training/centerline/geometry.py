@@ -260,12 +260,37 @@ def hatching(rng: Rng, size: int) -> tuple[Strokes, float]:
 
 
 def dots(rng: Rng, size: int) -> tuple[Strokes, float]:
-    """Dots and very short dashes."""
-    at = rng.uniform(0, size, (rng.integers(3, 30), 2))
-    turn = rng.uniform(0, 2 * np.pi, len(at))
-    half = rng.choice([0.3, 0.6, 2.0, 5.0], len(at)) * rng.uniform(0.7, 1.5, len(at))
+    """Dots and very short dashes: some here and there, or an area full of them."""
+    if rng.random() < 0.6:
+        gap = rng.uniform(4.5, 18)
+        at = np.stack(np.meshgrid(*[np.arange(0, size, gap)] * 2), -1).reshape(-1, 2)
+        at = at + rng.uniform(-0.4, 0.4, at.shape) * gap
+        center, radius = rng.uniform(0.1, 0.9, 2) * size, rng.uniform(0.1, 0.5) * size
+        at = at[np.hypot(*((at - center) * rng.uniform(0.6, 1.4, 2)).T) < radius]
+        half = rng.uniform(0.2, 0.2 * gap) * rng.uniform(0.5, 1.2, len(at))
+        widest = 0.45 * gap
+    else:
+        at = rng.uniform(0, size, (rng.integers(3, 30), 2))
+        half = rng.choice([0.3, 0.6, 2.0, 5.0], len(at)) * rng.uniform(0.7, 1.5, len(at))
+        widest = 9.0
+    turn = rng.uniform(0, np.pi) + rng.uniform(0, rng.choice([0.3, 7.0]), len(at))
     way = half[:, None] * np.stack([np.cos(turn), np.sin(turn)], 1)
-    return list(np.stack([at - way, at, at + way], 1).astype(np.float32)), 9.0
+    return list(np.stack([at - way, at, at + way], 1).astype(np.float32)), widest
+
+
+def broken(rng: Rng, strokes: Strokes, gap: float) -> Strokes:
+    """Strokes cut into dashes and dots with gaps of at least `gap` px: each piece is a stroke."""
+    length = float(np.exp(rng.uniform(np.log(1.5), np.log(60))))
+    pieces: Strokes = []
+    for stroke in strokes[:400]:
+        dense = resample(stroke, 1.0)
+        count = 2 + int(len(dense) / (length + gap))
+        on = 1.5 + rng.exponential(length, count)
+        off = gap * (1 + rng.exponential(0.6, count))
+        edges = np.cumsum(np.stack([on, off], 1).ravel()) - rng.uniform(0, length)
+        parts = np.split(dense, np.clip(edges, 0, len(dense)).astype(int))
+        pieces += [part for part in parts[::2] if len(part) > 1]
+    return pieces
 
 
 def scribble(rng: Rng, size: int) -> tuple[Strokes, float]:
@@ -311,7 +336,7 @@ INVENTED: dict[Callable[[Rng, int], tuple[Strokes, float]], float] = {
     tees: 2.0,
     tangents: 1.5,
     hatching: 1.5,
-    dots: 0.5,
+    dots: 1.8,
     scribble: 1.5,
     ruler: 1.0,
 }

@@ -360,7 +360,7 @@ def draw(
             mine = mine * (1 - rim + rim * np.exp(-np.abs(edge + 1.0)))
         if grain:
             # The tooth of the paper takes ink where it is high; more pressure fills the valleys.
-            fill = np.clip(0.75 + 0.9 * (mine - 0.5) + tooth * 0.55, 0, 1)
+            fill = np.clip(0.8 + 0.9 * (mine - 0.5) + tooth * 0.5, 0, 1)
             mine = mine * (1 - grain + grain * fill)
         ink = 1 - (1 - ink) * (1 - np.where(owner >= 0, cover * mine, 0))
     return ink.astype(np.float32), half

@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 from involute.engine.scan import flatten_paper
 
-from .geometry import Array, Library, Rng, Strokes, invented, true_drawing
+from .geometry import Array, Library, Rng, Strokes, broken, invented, true_drawing
 from .media import MEDIA, Medium, Samples, draw, line_spacing, noise, sample
 from .paper import clean, paper, scan, shadow
 from .targets import MAX_HALF_WIDTH, Targets, targets
@@ -42,6 +42,10 @@ def page(
         if rng.random() < 0.9:
             widest = min(widest, 0.8 * spacing)
         width = max(1.0, min(pen * rng.uniform(0.9, 1.1), widest))
+        if medium.grain[1] <= 0.3 and rng.random() < 0.15:
+            samples = sample(broken(rng, strokes, width + 1.5) or strokes, size)
+            if len(samples) < 2:
+                continue
         layer, half = draw(rng, samples, medium, width, size)
         own = faint if rng.random() < 0.85 else rng.uniform(0.2, 0.9)
         ink = 1 - (1 - ink) * (1 - layer * own)
@@ -99,15 +103,15 @@ def _targets(samples: list[Samples], halves: list[Array], ink: Array) -> Targets
 
 
 def _visible(points: Array, ink: Array) -> Array:
-    """Which of (N, 2) samples along strokes show: most of the 24 px around them is inked.
+    """Which of (N, 2) samples along strokes show: most of the 24 px along them is inked.
 
     Nobody can trace what the paper's grain has swallowed. Points off the page count as well.
     """
-    inked = cv2.dilate(ink, np.ones((5, 5), np.uint8)) > 0.06
+    inked = cv2.dilate(ink, np.ones((3, 3), np.uint8)) > 0.06
     cell = np.clip(points.astype(int), 0, len(ink) - 1)
     near = np.convolve(inked[cell[:, 1], cell[:, 0]], np.full(_SEEN_OVER, 1 / _SEEN_OVER), "same")
     # On grainy paper a stroke must do better than the grain.
-    return near[: len(points)] > max(0.55, min(0.9, 0.3 + inked.mean()))
+    return near[: len(points)] > max(0.42, min(0.9, 0.3 + inked.mean()))
 
 
 def _solids(rng: Rng, size: int) -> Array:
