@@ -17,24 +17,27 @@ _NEWTON = 4  # steps that move the parameters to the nearest points of the curve
 _EVEN = 16  # rounds after which segments are halved
 
 
-def fit(points: Array, keep: Array, corner: Array, tolerance: float) -> tuple[Array, Array]:
+def fit(
+    points: Array, run: Array, keep: Array, corner: Array, tolerance: float
+) -> tuple[Array, Array]:
     """Choose anchors and handles.
 
     Args:
-        points: (N, 2) samples; keep: (N,) bool, samples that become anchors in any case, the ends
-            of every run among them; corner: (N,) bool, where the curve may turn (run ends too).
+        points: (N, 2) samples; run: (N,) a number for each line that they belong to.
+        keep: (N,) bool, samples that become anchors in any case, the ends of every run among them.
+        corner: (N,) bool, where the curve may turn, the ends of every run among them.
         tolerance: greatest distance of a sample from the curve.
 
     Returns:
-        (N,) bool, the anchors, and (N, 2, 2) left and right handles, valid at anchors.
+        (N,) bool, the anchors, and (N, 2, 2) left and right handles, valid at anchors; the outer
+        handles at the ends of a run are the ends themselves.
     """
     anchor = keep.copy()
     left, right = points.copy(), points.copy()
     ahead, back = _tangents(points, corner)
     stops = np.flatnonzero(keep)
-    # From the end of one run to the start of the next there is nothing to fit.
-    gap = corner[stops[:-1]] & corner[stops[1:]] & (np.diff(stops) == 1)
-    first, last = stops[:-1][~gap], stops[1:][~gap]
+    same = run[stops[:-1]] == run[stops[1:]]
+    first, last = stops[:-1][same], stops[1:][same]
     for turn in range(64):
         if not len(first):
             break

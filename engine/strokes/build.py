@@ -19,7 +19,6 @@ Array = np.ndarray
 _WIDTH_BLUR = 1.0  # pen widths; sigma of the smoothing of widths and opacity along a stroke
 _WIDTH_STEP = 0.12  # change of width, in pen widths, that is worth a point of its own
 _OPACITY_STEP = 0.12
-_SPECK = 0.25  # pen widths of ink that a lonely line needs beyond Settings.min_length
 
 
 def build(page: Page, walks: Sequence[Walk]) -> list[Stroke]:
@@ -27,46 +26,26 @@ def build(page: Page, walks: Sequence[Walk]) -> list[Stroke]:
 
     Every stroke depends on its own walk alone, so that the same walk always gives the same stroke.
     """
-    walks = [w for w in walks if not _is_speck(page, w)]
+    walks = [w for w in walks if not page.dust[w.halves[0] >> 1]]
     if not walks:
         return []
-    settings = page.settings
-    lines = Lines.of(page, walks, margin(settings.smoothing))
+    lines = Lines.of(page, walks, margin(page.settings.smoothing))
     raw = page.points[lines.sample]
     corner = corners(raw, lines)
-    points = smooth(raw, lines, corner, settings.smoothing)
+    points = smooth(raw, lines, corner, page.settings.smoothing)
     widths, opacity = _ink(page, lines)
+    kept, handles = _few(page, lines, corner, points, widths, opacity)
 
-    place = np.arange(len(points))
-    ends = np.zeros(len(points), bool)
-    ends[lines.start] = ends[lines.stop - 1] = True
-    # What continues a closed stroke round its seam has done its work.
-    own = _between(place, lines.start, lines.stop)
-    index = place[own]
-    points, widths, opacity = points[own], widths[own], opacity[own]
-    keep = (corner | lines.joint | ends)[own]
-    handles = None
-    if settings.curve == "bezier":
-        kept, handles = fit(points, keep, (corner | ends)[own], settings.tolerance)
-    else:
-        also = np.column_stack([widths / (_WIDTH_STEP * page.pen), opacity / _OPACITY_STEP])
-        kept = simplify(
-            np.column_stack([points, also * max(settings.tolerance, 1e-6)]),
-            keep,
-            settings.tolerance,
-        )
     strokes = []
-    begin = np.searchsorted(index, lines.start)
-    stop = np.searchsorted(index, lines.stop)
-    for walk, low, high in zip(walks, begin, stop, strict=True):
-        chosen = low + np.flatnonzero(kept[low:high])
-        branches = np.array(walk.halves, np.int32)
-        own_handles = None if handles is None else handles[chosen].astype(np.float32)
-        if walk.closed:
-            if own_handles is not None:
-                own_handles[0, 0] = own_handles[-1, 0]
-                own_handles = own_handles[:-1]
+    for walk, start, stop in zip(walks, lines.start, lines.stop, strict=True):
+        chosen = start + np.flatnonzero(kept[start:stop])
+        curve = None if handles is None else handles[chosen].astype(np.float32)
+        if walk.closed:  # the last sample is the first again
             chosen = chosen[:-1]
+            if curve is not None:
+                curve[0, 0] = curve[-1, 0]
+                curve = curve[:-1]
+        branches = np.array(walk.halves, np.int32)
         strokes.append(
             Stroke(
                 points=points[chosen].astype(np.float32),
@@ -75,27 +54,27 @@ def build(page: Page, walks: Sequence[Walk]) -> list[Stroke]:
                 closed=walk.closed,
                 color=page.inks.color_of(branches >> 1, page.length[branches >> 1]),
                 branches=branches,
-                handles=own_handles,
+                handles=curve,
             )
         )
     return strokes
 
 
-def _is_speck(page: Page, walk: Walk) -> bool:
-    """Dust: a line that hangs on nothing and whose ink, caps included, is shorter than allowed."""
-    branch = walk.halves[0] >> 1
-    if not page.lonely[branch]:
-        return False
-    samples = slice(page.offsets[branch], page.offsets[branch + 1])
-    ink = page.length[branch] + float(np.mean(page.widths[samples]))
-    return ink < (page.settings.min_length + _SPECK) * page.pen
+def _few(
+    page: Page, lines: Lines, corner: Array, points: Array, widths: Array, opacity: Array
+) -> tuple[Array, Array | None]:
+    """Which samples become points of the strokes, and their Bezier handles if these are wanted.
 
-
-def _between(place: Array, start: Array, stop: Array) -> Array:
-    edge = np.zeros(len(place) + 1, np.int64)
-    np.add.at(edge, start, 1)
-    np.add.at(edge, stop, -1)
-    return np.cumsum(edge[:-1]) > 0
+    Ends, corners and the junctions that a stroke runs through are always points.
+    """
+    keep = corner | lines.joint
+    keep[lines.start] = keep[lines.stop - 1] = True
+    tolerance = page.settings.tolerance
+    if page.settings.curve == "bezier":
+        return fit(points, lines.first, keep, corner, tolerance)
+    # A change of the ink is as good a reason for a point as a bend.
+    ink = np.column_stack([widths / (_WIDTH_STEP * page.pen), opacity / _OPACITY_STEP])
+    return simplify(np.column_stack([points, ink * tolerance]), keep, tolerance), None
 
 
 def _ink(page: Page, lines: Lines) -> tuple[Array, Array]:

@@ -45,7 +45,7 @@ class Lines:
         sample = np.where(
             backward, page.offsets[branch + 1] - 1 - inside, page.offsets[branch] + inside
         )
-        joint = inside == 0
+        joint = (inside == 0) & ~page.lonely[branch]  # where a circle begins is no junction
         size = np.add.reduceat(count, np.concatenate([[0], np.cumsum(steps)[:-1]]))
         origin = np.concatenate([[0], np.cumsum(size)[:-1]])
 
