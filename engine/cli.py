@@ -265,6 +265,8 @@ def _trace(options: argparse.Namespace, writers: Mapping[str, Writer]) -> int:
         _say(f"{path}: {sentence}", FAILED)
     if not target.is_file:
         planning.make_folder(target.path)
+    elif not target.path.parent.is_dir():
+        raise InvoluteError(f"Can't write {target.path}: its folder doesn't exist; make it first.")
 
     outcomes = _run(pages, settings, options, writers) if pages else {}
     failed = [page for page, outcome in outcomes.items() if outcome.error]
