@@ -15,8 +15,8 @@ import numpy as np
 from ..values import Array
 
 BLOCK = 64  # px; tiles begin and end at multiples of it (and of the network's stride)
-CONTEXT = 64  # px that a network sees beyond a tile, so that the tile's size makes no difference
-LARGEST = 1024  # px; longest side of a tile
+CONTEXT = 80  # px that a network sees beyond a tile, so that the tile's size makes no difference
+LARGEST = 1024  # px; longest side of a window, which bounds the memory
 _CELL = 16  # px; ink is looked for in cells of this size
 _INK = 0.04  # mean of 3x3 px above which paper counts as inked
 _OVERHEAD = 0.3  # blocks; what the call of a network costs beside its pixels
@@ -43,8 +43,7 @@ class Tile:
 
 def plan(active: Array) -> list[Tile]:
     """Tiles that cover all active blocks (2-D bool) and as few others as possible."""
-    boxes = _cover(active, LARGEST // BLOCK)
-    return [Tile(*(BLOCK * edge for edge in box)) for box in boxes]
+    return [Tile(*(BLOCK * edge for edge in box)) for box in _cover(active)]
 
 
 def active_blocks(ink: Array) -> Array:
@@ -71,11 +70,11 @@ def active_blocks(ink: Array) -> Array:
     return cells.reshape(cells.shape[0] // per, per, -1, per).any((1, 3))
 
 
-def _cover(active: Array, largest: int) -> list[tuple[int, int, int, int]]:
+def _cover(active: Array) -> list[tuple[int, int, int, int]]:
     """Disjoint rectangles (top, left, bottom, right) in blocks over all active blocks.
 
-    A rectangle is halved where that leaves the least to look at, as long as it is too large or
-    halving is cheaper than not.
+    A rectangle is cut in two where that leaves the least to look at, as long as its window is too
+    large or cutting is cheaper than not.
     """
     done, open_ = [], [(0, 0, *active.shape)]
     while open_:
@@ -84,16 +83,22 @@ def _cover(active: Array, largest: int) -> list[tuple[int, int, int, int]]:
             continue
         top, left, bottom, right = box
         inside = active[top:bottom, left:right]
-        cost_y, y = _best_cut(inside)
-        cost_x, x = _best_cut(inside.T)
-        too_large = max(inside.shape) > largest
-        if not too_large and min(cost_x, cost_y) >= _cost(*inside.shape):
+        high = _window(top, bottom, active.shape[0]) > LARGEST
+        wide = _window(left, right, active.shape[1]) > LARGEST
+        cost_y, y = _best_cut(inside) if high or not wide else (float("inf"), 0)
+        cost_x, x = _best_cut(inside.T) if wide or not high else (float("inf"), 0)
+        if not (high or wide) and min(cost_x, cost_y) >= _cost(*inside.shape):
             done.append(box)
         elif cost_y <= cost_x:
             open_ += [(top, left, top + y, right), (top + y, left, bottom, right)]
         else:
             open_ += [(top, left, bottom, left + x), (top, left + x, bottom, right)]
     return sorted(done)
+
+
+def _window(start: int, stop: int, length: int) -> int:
+    """The extent in px of a tile with its context, as far as the page reaches; given in blocks."""
+    return min(length * BLOCK, stop * BLOCK + CONTEXT) - max(0, start * BLOCK - CONTEXT)
 
 
 def _trim(active: Array, box: tuple[int, int, int, int]) -> tuple[int, int, int, int] | None:
@@ -117,10 +122,7 @@ def _cost(height: Array | int, width: Array | int) -> Array | float:
 
 
 def _best_cut(active: Array) -> tuple[float, int]:
-    """The cheapest row to cut a block mask at (the row below the cut), and the cost of both parts.
-
-    Parts larger than a tile may be count as if cut evenly later on.
-    """
+    """The cost of both parts of a block mask, cut at the best row, and that row (below the cut)."""
     rows, columns = active.shape
     if rows < 2:
         return float("inf"), 0
@@ -139,8 +141,9 @@ def _best_cut(active: Array) -> tuple[float, int]:
     above = upper(first, last, used)[:-1]
     below = upper(first[::-1], last[::-1], used[::-1])[::-1][1:]
     total = above + below
-    # Of equal costs the most even cut wins.
-    even = np.abs(2 * np.arange(1, rows) - rows)
+    # Of equal costs the cut wins that leaves the fewest parts of almost full size.
+    parts = -(-rows // ((LARGEST - 2 * CONTEXT) // BLOCK))
+    even = np.abs(np.arange(1, rows) - rows * max(1, parts // 2) / max(2, parts))
     best = np.lexsort((even, np.round(total, 3)))[0]
     return float(total[best]), int(best) + 1
 

@@ -52,7 +52,8 @@ def test_tiles_cover_all_ink_once_and_leave_no_seam(ink):
     plan = tiles.plan(tiles.active_blocks(ink))
     seen = np.zeros(ink.shape, np.uint8)
     for tile in plan:
-        assert max(tile.bottom - tile.top, tile.right - tile.left) <= tiles.LARGEST
+        rows, columns = tile.window(*ink.shape)
+        assert max(rows.stop - rows.start, columns.stop - columns.start) <= tiles.LARGEST
         seen[tile.top : tile.bottom, tile.left : tile.right] += 1
     assert seen.max(initial=0) <= 1
     assert seen[ink > 0].all()
@@ -149,7 +150,7 @@ def test_size_of_the_tiles_makes_no_difference(monkeypatch):
     ends = rng.uniform(10, 690, (14, 4))
     ink = page_of(*ends, size=(700, 700), width=3)
     whole = trace(ink)
-    monkeypatch.setattr(tiles, "LARGEST", 256)
+    monkeypatch.setattr(tiles, "LARGEST", 320)
     assert len(tiles.plan(tiles.active_blocks(ink))) > 4
     tiled = trace(ink)
     for name in ("centerline", "junctions", "endpoints", "solid"):
