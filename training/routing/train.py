@@ -122,7 +122,7 @@ def evaluate(net: RoutingNet, batch: Batch, device: str = "cpu") -> Verdict:
 
 
 def validation(
-    library: Library, traced: Path | None = None, pages: int = 60, seed: int = 5
+    library: Library, traced: Path | None = None, pages: int = 40, seed: int = 5
 ) -> dict[str, Batch]:
     """Held-out pages: as drawn ("true"), varied at random ("rough"), and really traced."""
     rng = np.random.default_rng(seed)
