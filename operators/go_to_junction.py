@@ -40,7 +40,7 @@ class INVOLUTE_OT_step_junction(JunctionOperator, bpy.types.Operator):
     """Go to the next or previous junction of the list"""
 
     bl_idname = "involute.step_junction"
-    bl_label = "Next Junction"
+    bl_label = "Next or Previous Junction"
     bl_options = {"INTERNAL"}
 
     direction: EnumProperty(

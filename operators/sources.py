@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -53,6 +54,35 @@ def from_files(paths: Sequence[str], *, as_keyframes: bool) -> list[Source]:
     return sources
 
 
+def from_empty(empty: bpy.types.Object) -> list[Source]:
+    """What an image Empty shows: one picture, or every file of the sequence that it plays.
+
+    Raises:
+        InvoluteError: the image has no pixels, or its sequence no files.
+    """
+    import bpy
+
+    image, user = empty.data, empty.image_user
+    if image.source != "SEQUENCE":
+        return [from_image(image, empty)]
+    first = Path(bpy.path.abspath(image.filepath, library=image.library))
+    files = sorted(str(f) for f in first.parent.glob(f"*{first.suffix}") if _alike(f, first))
+    if not files:
+        raise InvoluteError(f"There are no files of the sequence {image.name!r} in its folder.")
+    from ..engine.sequence.frames import number_frames
+
+    # Blender shows file number 1 at the start frame, counted on by the offset.
+    shift = user.frame_start - 1 - user.frame_offset
+    shown = range(user.frame_start, user.frame_start + max(1, user.frame_duration))
+    numbered = ((f.number + shift, f) for f in number_frames(files))
+    name = Path(image.name).stem or "Drawing"
+    return [
+        Source(name, f.path, frame=frame, empty=empty.name)
+        for frame, f in numbered
+        if frame in shown
+    ]
+
+
 def from_image(image: bpy.types.Image, empty: bpy.types.Object | None = None) -> Source:
     """An image data-block: its file when it is saved as it is, else the pixels in memory.
 
@@ -91,6 +121,11 @@ def _pixels(image: bpy.types.Image) -> np.ndarray:
             color <= 0.0031308, color * 12.92, 1.055 * color ** (1 / 2.4) - 0.055
         )
     return np.ascontiguousarray(np.clip(pixels, 0.0, 1.0))
+
+
+def _alike(one: Path, other: Path) -> bool:
+    """Do two names differ in nothing but digits?"""
+    return re.sub(r"\d+", "#", one.name) == re.sub(r"\d+", "#", other.name)
 
 
 def _has_pages(path: str) -> bool:

@@ -126,7 +126,7 @@ class INVOLUTE_OT_trace(TraceSettings, bpy.types.Operator):
         empty = context.active_object
         if not is_image_empty(empty):
             raise InvoluteError("Choose a picture file, or select an Empty that shows an image.")
-        return [sources.from_image(empty.data, empty)]
+        return sources.from_empty(empty)
 
     def _finish(self, context: bpy.types.Context, results: Sequence[worker.Result]) -> set[str]:
         done = [result for result in results if result.drawing is not None]
@@ -157,21 +157,22 @@ class INVOLUTE_OT_trace(TraceSettings, bpy.types.Operator):
 
     def _write(self, context: bpy.types.Context, done: Sequence[worker.Result]) -> None:
         frame = context.scene.frame_current
+        keyed = all(result.source.frame is not None for result in done)
         if self.target == "ACTIVE":
             obj = context.active_object
             if not gp.is_grease_pencil(obj) or not obj.data.is_editable:
                 raise InvoluteError("Make a Grease Pencil object of this file the active one.")
             for result in done:
-                put(obj, result, frame, alone=self.as_keyframes)
+                put(obj, result, frame, alone=keyed)
             return
         if context.mode != "OBJECT":
             bpy.ops.object.mode_set(mode="OBJECT")
         objects: list[bpy.types.Object] = []
         for result in done:
-            if not (self.as_keyframes and objects):
+            if not (keyed and objects):
                 objects.append(new_object(result.source.name))
                 context.collection.objects.link(objects[-1])
-            put(objects[-1], result, frame, alone=self.as_keyframes)
+            put(objects[-1], result, frame, alone=keyed)
         for other in context.selected_objects:
             other.select_set(False)
         for obj in objects:

@@ -60,10 +60,35 @@ class Worker:
 
     def run(self) -> None:
         """Trace all sources; never raises."""
+        if len(self.sources) > 1 and all(_is_frame(source) for source in self.sources):
+            self._trace_sequence()
+            return
         for source in self.sources:
             if self.cancelled:
                 return
             self.results.append(self._trace(source))
+
+    def _trace_sequence(self) -> None:
+        """In parallel processes, with strokes that stay themselves from frame to frame."""
+        from ..engine.sequence import Frame, trace_sequence
+
+        frames = [Frame(k, s.frame, s.picture, s.page) for k, s in enumerate(self.sources)]
+        self.stage = f"Tracing {len(frames)} frames"
+        try:
+            made = trace_sequence(frames, self.settings, progress=self._frame_is_done)
+            for source, (_, drawing) in zip(self.sources, made, strict=True):
+                failed = isinstance(drawing, InvoluteError)
+                result = Result(source, None, str(drawing)) if failed else Result(source, drawing)
+                self.results.append(result)
+        except Cancelled:
+            return
+        except Exception as problem:
+            self.results = [Result(self.sources[0], None, _unexpected(problem))]
+
+    def _frame_is_done(self, frame: object, outcome: object) -> None:
+        if self.cancelled:
+            raise Cancelled
+        self.fraction = min(1.0, self.fraction + 1 / len(self.sources))
 
     def _trace(self, source: Source) -> Result:
         from ..engine import vectorize
@@ -75,12 +100,7 @@ class Worker:
         except MemoryError:
             return Result(source, None, "There is not enough memory for a picture of this size.")
         except Exception as problem:  # a defect of ours must not leave the interface waiting
-            import traceback
-
-            traceback.print_exc()
-            return Result(
-                source, None, f"Tracing failed unexpectedly ({problem!r}); please report it."
-            )
+            return Result(source, None, _unexpected(problem))
         return Result(source, drawing)
 
     def _tick(self, stage: str, fraction: float) -> None:
@@ -88,6 +108,17 @@ class Worker:
             raise Cancelled
         self.stage = STAGES.get(stage, stage)
         self.fraction = (len(self.results) + fraction) / len(self.sources)
+
+
+def _is_frame(source: Source) -> bool:
+    return source.frame is not None and isinstance(source.picture, str)
+
+
+def _unexpected(problem: Exception) -> str:
+    import traceback
+
+    traceback.print_exc()
+    return f"Tracing failed unexpectedly ({problem!r}); please report it."
 
 
 current: Worker | None = None
