@@ -1,11 +1,13 @@
 """Fit the weights of `engine/routing/geometric.py` to the true strokes of drawings.
 
-    python -m involute.training.routing.geometric_fit --data FOLDER_WITH_NPZ
+    python -m involute.training.routing.traced --data FOLDER --out traced.npz --pages 110
+    python -m involute.training.routing.geometric_fit --data FOLDER --traced traced.npz
 
 The weights maximise the likelihood of the true involution of every junction among all involutions
-of its half-branches (a log-linear model, so that the optimum is unique). Half of the examples are
-roughened as tracing roughens them. Prints the table for `geometric.py`, and how often junctions
-and pairs of held-out drawings come out right. Takes about two minutes.
+of its half-branches (a log-linear model, so that the optimum is unique). The examples are perfect
+graphs, the same roughened a little, and pages that were really traced. Prints the table for
+`geometric.py`, and how often junctions and pairs of held-out drawings come out right. Takes about
+two minutes.
 """
 
 from __future__ import annotations
@@ -23,6 +25,7 @@ from involute.engine.routing.matching import pair_matrix
 from involute.engine.values import PlanarGraph
 from scipy.optimize import minimize
 
+from . import traced
 from .planar import graph_from_strokes
 
 Array = np.ndarray
@@ -42,6 +45,7 @@ SETS = {
     "icons_permissive": (150, 0.5),
     "fishdraw": (6, 0.3),
 }
+TRACED = 8.0  # how much traced pages count
 HELD_OUT = 4  # every fourth drawing is for judging
 PEN = (1.7, 5.0)  # px
 MAX_DEGREE = 8
@@ -76,7 +80,9 @@ def roughened(graph: PlanarGraph, rng: np.random.Generator) -> PlanarGraph:
     return replace(graph, vertices=vertices, points=points)
 
 
-def examples(data: Path, rng: np.random.Generator) -> tuple[Examples, dict[str, Examples]]:
+def examples(
+    data: Path, traced_pages: Path | None, rng: np.random.Generator
+) -> tuple[Examples, dict[str, Examples]]:
     """Examples for fitting, and for judging those of each set."""
     fit: dict[int, list] = defaultdict(list)
     judge: dict[str, Examples] = {}
@@ -95,12 +101,24 @@ def examples(data: Path, rng: np.random.Generator) -> tuple[Examples, dict[str, 
             else:
                 _collect(learnt, graph, partner)
                 _collect(learnt, roughened(graph, rng), partner)
-        total = sum(weight.sum() for parts in learnt.values() for *_, weight in parts)
-        for degree, parts in learnt.items():
-            fit[degree] += [(x, y, w * share / total) for x, y, w in parts]
+        _add(fit, learnt, share)
         judge[name] = _joined(held)
         print(f"{name}: {sum(len(v[1]) for v in judge[name].values())} junctions held out")
+    if traced_pages:
+        learnt, held = defaultdict(list), defaultdict(list)
+        for number, page in enumerate(traced.load(traced_pages)):
+            if len(page.graph.junctions):
+                _collect(held if number % HELD_OUT == 0 else learnt, page.graph, page.partner)
+        _add(fit, learnt, TRACED)
+        judge["traced"] = _joined(held)
     return _joined(fit), judge
+
+
+def _add(fit: dict[int, list], learnt: dict[int, list], share: float) -> None:
+    """Add a set to the examples, weighted so that all of it counts `share`."""
+    total = sum(weight.sum() for parts in learnt.values() for *_, weight in parts)
+    for degree, parts in learnt.items():
+        fit[degree] += [(x, y, w * share / total) for x, y, w in parts]
 
 
 def _collect(into: dict[int, list], graph: PlanarGraph, partner: Array) -> None:
@@ -171,9 +189,10 @@ def report(name: str, data: Examples, weights: Array) -> None:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--data", type=Path, required=True, help="folder with the .npz sets")
+    parser.add_argument("--traced", type=Path, help="pages that traced.py made")
     parser.add_argument("--seed", type=int, default=0)
     args = parser.parse_args()
-    learnt, judged = examples(args.data, np.random.default_rng(args.seed))
+    learnt, judged = examples(args.data, args.traced, np.random.default_rng(args.seed))
     weights = fit(learnt)
     for name, data in judged.items():
         report(name, data, weights)
