@@ -22,11 +22,10 @@ _OPACITY_STEP = 0.12
 
 
 def build(page: Page, walks: Sequence[Walk]) -> list[Stroke]:
-    """The strokes of walks, in their order; specks are left out.
+    """The strokes of walks, in their order.
 
     Every stroke depends on its own walk alone, so that the same walk always gives the same stroke.
     """
-    walks = [w for w in walks if not page.dust[w.halves[0] >> 1]]
     if not walks:
         return []
     lines = Lines.of(page, walks, margin(page.settings.smoothing))

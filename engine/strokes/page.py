@@ -11,7 +11,6 @@ import numpy as np
 
 from ..settings import Settings
 from ..values import PlanarGraph
-from .dust import dust
 from .inks import Inks
 
 Array = np.ndarray
@@ -32,7 +31,6 @@ class Page:
     widths, opacity: (M,) float64; trust: (M,) weight in [0, 1], 0 where a junction spoils them.
     length: (B,) px.
     lonely: (B,) bool; the branch is a whole line that hangs on nothing.
-    dust: (B,) bool; part of a piece too small, or too faint for its size, to be a stroke.
     inks: the colours of the page.
     """
 
@@ -44,7 +42,6 @@ class Page:
     trust: Array
     length: Array
     lonely: Array
-    dust: Array
     inks: Inks
     settings: Settings
 
@@ -89,20 +86,15 @@ class Page:
         strength = np.ones(len(points)) if graph.strength is None else graph.strength
         full = max(float(np.percentile(strength, _FULL_INK)), 1e-3) if len(strength) else 1.0
         free = (graph.degrees[graph.ends] <= 1).all(1)
-        sampled_widths = at(widths)[:, 0]
-        opacity = np.clip(at(strength)[:, 0] / full, 0.0, 1.0)
-        mean_width = np.bincount(of_sample, sampled_widths) / count
-        mean_opacity = np.bincount(of_sample, opacity) / count
         return cls(
             pen=pen,
             points=at(points),
             offsets=offsets,
-            widths=sampled_widths,
-            opacity=opacity,
+            widths=at(widths)[:, 0],
+            opacity=np.clip(at(strength)[:, 0] / full, 0.0, 1.0),
             trust=np.clip(near / (_BLOB * pen) - 1.0, 0.0, 1.0),
             length=length,
             lonely=free | (graph.degrees[graph.ends] == 2).all(1),
-            dust=dust(graph, length, mean_width, mean_opacity, settings.min_length, pen),
             inks=Inks.of(graph, length, pen) if settings.inks else Inks.black(graph.branch_count),
             settings=settings,
         )

@@ -271,22 +271,6 @@ def test_one_ink_is_one_colour() -> None:
     assert {s.color for s in _drawn(graph, partner, Settings(inks=False))} == {(0, 0, 0)}
 
 
-def test_dust_goes_and_dots_stay() -> None:
-    dust, dot = np.array([[50.0, 50], [51.5, 50]]), np.array([[90.0, 90], [91.5, 90]])
-    line = np.array([[10.0, 150], [190, 150]])
-    graph, partner = graph_from_strokes([dust, dot, line])
-    widths = np.repeat([2.0, 7.0, 4.0], np.diff(graph.offsets)).astype(np.float32)
-    graph = replace(graph, widths=widths)
-    kept = _drawn(graph, partner, Settings())
-    assert sorted(round(float(s.widths.mean())) for s in kept) == [4, 7]
-    assert len(_drawn(graph, partner, Settings(min_length=0.0))) == 3
-
-
-def test_short_strokes_that_hang_on_something_stay() -> None:
-    strokes = [np.array([[0.0, 50], [100, 50]]), np.array([[50.0, 50], [50, 52.5]])]
-    assert len(_one(strokes, Settings(min_length=5.0))) == 2
-
-
 def test_a_blank_page_has_no_strokes() -> None:
     assert _drawn(PlanarGraph.empty(), np.zeros(0, np.int32), Settings()) == []
 

@@ -1,0 +1,54 @@
+"""Dust and scratches go; dots, long faint lines and whatever hangs on a line stay."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from involute.engine import Settings
+from involute.engine.graph import sweep
+from involute.engine.values import PlanarGraph
+from involute.training.routing.planar import graph_from_strokes
+
+LINE = np.array([[10.0, 150], [190, 150]])
+
+
+def _swept(
+    strokes: list[np.ndarray], widths: list[float], strength: list[float], settings: Settings
+) -> PlanarGraph:
+    graph, _ = graph_from_strokes(strokes)
+    size = np.diff(graph.offsets)
+    graph = replace(
+        graph,
+        widths=np.repeat(widths, size).astype(np.float32),
+        strength=np.repeat(strength, size).astype(np.float32),
+    )
+    return sweep(graph, settings)
+
+
+def test_dust_goes_and_dots_stay() -> None:
+    dust, dot = np.array([[50.0, 50], [51.5, 50]]), np.array([[90.0, 90], [91.5, 90]])
+    strokes, widths, ink = [dust, dot, LINE], [2.0, 7.0, 4.0], [1.0, 1.0, 1.0]
+    kept = _swept(strokes, widths, ink, Settings())
+    assert sorted(set(kept.widths.tolist())) == [4.0, 7.0]
+    assert _swept(strokes, widths, ink, Settings(min_length=0.0)).branch_count == 3
+
+
+def test_scratches_go_and_faint_lines_stay() -> None:
+    scratch = np.array([[50.0, 50], [70.0, 50]])
+    faint = np.array([[10.0, 100], [190, 100]])
+    short = np.array([[90.0, 70], [110.0, 70]])
+    kept = _swept([scratch, faint, short, LINE], [4.0] * 4, [0.15, 0.15, 0.9, 1.0], Settings())
+    assert kept.branch_count == 3
+    assert not (kept.points[:, 1] == 50).any()
+
+
+def test_a_page_of_nothing_but_faint_lines_keeps_them() -> None:
+    hatching = [np.array([[10.0, y], [30.0, y]]) for y in range(10, 100, 10)]
+    assert _swept(hatching, [4.0] * 9, [0.15] * 9, Settings()).branch_count == 9
+
+
+def test_short_lines_that_hang_on_something_stay() -> None:
+    bar, stem = np.array([[0.0, 50], [100, 50]]), np.array([[50.0, 50], [50, 52.5]])
+    kept = _swept([bar, stem], [4.0] * 3, [1.0] * 3, Settings(min_length=5.0))
+    assert kept.branch_count == 3
