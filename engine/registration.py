@@ -12,10 +12,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import combinations
+from os import PathLike
+from pathlib import Path
 
 import cv2
 import numpy as np
 
+from .errors import InvoluteError
 from .settings import Settings
 from .values import Array, Scan
 
@@ -60,6 +63,25 @@ def anchors_of(scan: Scan) -> tuple[tuple[float, float], ...]:
     """The holes or marks of a page in pixels of the input, as `Settings.align` wants them."""
     marks = find_marks(scan.ink, scan.pen_width)
     return tuple((float(x), float(y)) for x, y in marks.anchors * scan.scale)
+
+
+def first_anchors(
+    path: str | PathLike[str], page: int, settings: Settings
+) -> tuple[tuple[float, float], ...]:
+    """The same for the page that a whole sequence is aligned to.
+
+    Raises:
+        InvoluteError: it can't be read, or there is nothing on it to align by.
+    """
+    from .scan import read_scan
+
+    anchors = anchors_of(read_scan(path, settings, page))
+    if len(anchors) < 2:
+        raise InvoluteError(
+            f"There are no peg holes or registration marks on {Path(path).name}; "
+            "trace it without aligning."
+        )
+    return anchors
 
 
 def find_marks(ink: Array, pen_width: float) -> Marks:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import bpy
 
 from ..operators.import_scan import INVOLUTE_OT_import_scan
+from ..operators.playing import plays_frames
+from ..operators.sequence import INVOLUTE_OT_import_sequence, INVOLUTE_OT_trace_sequence
 from ..operators.sources import SUFFIXES
 from ..operators.trace import INVOLUTE_OT_trace, is_image_empty
 
@@ -26,16 +28,30 @@ def _in_file_import(self: bpy.types.Menu, context: bpy.types.Context) -> None:
     self.layout.operator(
         INVOLUTE_OT_import_scan.bl_idname, text="Scanned Drawing as Grease Pencil (Involute)"
     )
+    self.layout.operator(
+        INVOLUTE_OT_import_sequence.bl_idname,
+        text="Drawing Sequence as Grease Pencil (Involute)",
+    )
 
 
 def _in_add(self: bpy.types.Menu, context: bpy.types.Context) -> None:
     self.layout.operator(
         INVOLUTE_OT_import_scan.bl_idname, text="Scanned Drawing...", icon="OUTLINER_OB_IMAGE"
     )
+    self.layout.operator(
+        INVOLUTE_OT_import_sequence.bl_idname, text="Drawing Sequence...", icon="RENDER_ANIMATION"
+    )
 
 
 def _for_image_empty(self: bpy.types.Menu, context: bpy.types.Context) -> None:
-    if is_image_empty(context.active_object):
+    if plays_frames(context.active_object):
+        self.layout.separator()
+        self.layout.operator(
+            INVOLUTE_OT_trace_sequence.bl_idname,
+            text="Trace as Keyframes (Involute)",
+            icon="GREASEPENCIL",
+        )
+    elif is_image_empty(context.active_object):
         self.layout.separator()
         self.layout.operator(
             INVOLUTE_OT_trace.bl_idname, text="Trace as Strokes (Involute)", icon="GREASEPENCIL"

@@ -28,6 +28,18 @@ def draw_settings(layout: bpy.types.UILayout, source: object) -> None:
                     column.prop(source, name)
 
 
+def draw_sequence(layout: bpy.types.UILayout, source: object) -> None:
+    """Draw the properties of a `SequenceSettings`."""
+    column = layout.column()
+    row = column.row(heading="Start At")
+    row.prop(source, "own_start", text="")
+    field = row.row()
+    field.active = source.own_start
+    field.prop(source, "start", text="")
+    for name in ("step", "align", "follow", "jobs"):
+        column.prop(source, name)
+
+
 def _flags(layout: bpy.types.UILayout, source: object, name: str) -> None:
     """A choice of several, folded into a menu that says what is chosen."""
     split = layout.split(factor=0.4)

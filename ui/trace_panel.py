@@ -7,6 +7,8 @@ import bpy
 from ..engine import InvoluteError
 from ..operators import worker
 from ..operators.import_scan import INVOLUTE_OT_import_scan
+from ..operators.playing import plays_frames
+from ..operators.sequence import INVOLUTE_OT_import_sequence, INVOLUTE_OT_trace_sequence
 from ..operators.trace import INVOLUTE_OT_cancel, INVOLUTE_OT_trace, is_image_empty
 from ..operators.trace_settings import as_values, scene_settings
 from ..operators.view_state import Shown, shown_in
@@ -33,7 +35,15 @@ class INVOLUTE_PT_trace(bpy.types.Panel):
         settings = scene_settings(context.scene)
         column = layout.column()
         column.scale_y = 1.3
-        if is_image_empty(context.active_object):
+        if plays_frames(context.active_object):
+            _button(
+                column,
+                INVOLUTE_OT_trace_sequence.bl_idname,
+                settings,
+                f"Trace What {context.active_object.name} Plays",
+                "RENDER_ANIMATION",
+            )
+        elif is_image_empty(context.active_object):
             _button(
                 column,
                 INVOLUTE_OT_trace.bl_idname,
@@ -43,6 +53,13 @@ class INVOLUTE_PT_trace(bpy.types.Panel):
             )
         _button(
             column, INVOLUTE_OT_import_scan.bl_idname, settings, "Trace Files...", "FILE_FOLDER"
+        )
+        _button(
+            column,
+            INVOLUTE_OT_import_sequence.bl_idname,
+            settings,
+            "Trace Sequence...",
+            "RENDER_ANIMATION",
         )
         layout.use_property_split = True
         layout.use_property_decorate = False

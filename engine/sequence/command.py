@@ -150,7 +150,11 @@ def plan(options: argparse.Namespace, settings: Settings, suffixes: Mapping[str,
         options.inputs, options.start, options.step, options.frames, options.skip_failed
     )
     if options.align:
-        settings = replace(settings, align=_first_anchors(options.inputs, settings))
+        from ..registration import first_anchors
+
+        # Of the whole sequence: every chunk of it aligns to the same page.
+        first = find_frames(options.inputs)[0]
+        settings = replace(settings, align=first_anchors(first.path, first.page, settings))
     return Plan(tuple(frames), settings, target, parts, options.jobs, options.follow)
 
 
@@ -235,18 +239,3 @@ def _write_folder(plan: Plan, drawings: Iterator[tuple[int, Drawing]]) -> None:
     for frame, drawing in drawings:
         for suffix in plan.target.suffixes:
             drawing.save(folder / f"{names[frame]}{suffix}")
-
-
-def _first_anchors(inputs: list[str], settings: Settings) -> tuple[tuple[float, float], ...]:
-    """The peg holes of the whole sequence's first page: every chunk aligns to the same."""
-    from ..registration import anchors_of
-    from ..scan import read_scan
-
-    first = find_frames(inputs)[0]
-    anchors = anchors_of(read_scan(first.path, settings, first.page))
-    if len(anchors) < 2:
-        raise InvoluteError(
-            f"There are no peg holes or registration marks on {Path(first.path).name}; "
-            "trace without --align."
-        )
-    return anchors
