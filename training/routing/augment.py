@@ -37,12 +37,13 @@ class Page:
 def augmented(rng: np.random.Generator, page: Page) -> Page:
     """A random variation of a page, from untouched but turned to roughly traced."""
     page = replace(page, graph=_bent(rng, page.graph))
-    if page.allowed is not None:
-        return page if rng.random() < 0.5 else replace(page, graph=_inked(rng, page))
-    if rng.random() < 0.5:
+    traced = page.allowed is not None
+    if not traced and rng.random() < 0.5:
         page = contracted(page, rng.uniform(0.5, 4.5))
-    if rng.random() < 0.6 and page.graph.branch_count:
+    if rng.random() < (0.2 if traced else 0.6) and page.graph.branch_count:
         page = replace(page, graph=_shaken(rng, page.graph))
+    if traced and rng.random() < 0.5:
+        return page
     return replace(page, graph=_inked(rng, page))
 
 

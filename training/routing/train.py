@@ -37,7 +37,7 @@ def main() -> None:
     parser.add_argument("--minutes", type=float, default=1e9, help="stop after so long")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--device", default="cpu", help="cpu, cuda or mps")
-    parser.add_argument("--traced", type=Path, help="pages by training.routing.traced")
+    parser.add_argument("--traced", type=Path, nargs="*", default=[], help="pages by `traced`")
     parser.add_argument("--traced-held-out", type=Path, help="the same, to validate on")
     parser.add_argument("--traced-share", type=float, default=0.4)
     parser.add_argument("--start", type=Path, help="weights to start from")
@@ -61,7 +61,7 @@ def train(args: argparse.Namespace) -> None:
     elif args.start:
         net.load_state_dict(torch.load(args.start, map_location=args.device)["mean"])
         mean.load_state_dict(net.state_dict())
-    traced = load(args.traced) if args.traced else []
+    traced = [page for file in args.traced for page in load(file)]
     library = Library.load(args.data, held_out=False)
     bank = Bank(library, args.seed * 1000 + first, traced, args.traced_share)
     held_out = validation(Library.load(args.data, held_out=True), args.traced_held_out)
