@@ -107,7 +107,7 @@ def _visible(points: Array, ink: Array) -> Array:
 
     Nobody can trace what the paper's grain has swallowed. Points off the page count as well.
     """
-    inked = cv2.dilate(ink, np.ones((3, 3), np.uint8)) > 0.06
+    inked = cv2.dilate(ink, np.ones((3, 3), np.uint8)) > 0.035
     cell = np.clip(points.astype(int), 0, len(ink) - 1)
     near = np.convolve(inked[cell[:, 1], cell[:, 0]], np.full(_SEEN_OVER, 1 / _SEEN_OVER), "same")
     # On grainy paper a stroke must do better than the grain.
