@@ -45,6 +45,10 @@ def install(archive: Path, folder: Path) -> None:
     bpy.ops.extensions.package_install_files(
         filepath=str(archive), repo=REPOSITORY, enable_on_install=True
     )
+    if MODULE not in sys.modules:  # seen in 4.5 on a busy machine: installed, but not enabled
+        import addon_utils
+
+        addon_utils.enable(MODULE, default_set=True)
 
 
 @pytest.fixture(scope="session")
