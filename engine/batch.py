@@ -18,7 +18,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from contextlib import suppress
 from dataclasses import dataclass, field
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
 from queue import SimpleQueue
 from typing import Any
@@ -149,10 +149,8 @@ def fingerprint(task: Task) -> str:
     Raises:
         OSError: the image can't be read.
     """
-    digest = hashlib.blake2b(digest_size=16)
-    with open(task.source, "rb") as file:
-        while block := file.read(1 << 20):
-            digest.update(block)
+    info = os.stat(task.source)
+    digest = hashlib.blake2b(_content(task.source, info.st_size, info.st_mtime_ns), digest_size=16)
     recipe = [
         task.settings.as_dict(),
         task.page,
@@ -161,6 +159,16 @@ def fingerprint(task: Task) -> str:
     ]
     digest.update(json.dumps(recipe, sort_keys=True).encode())
     return digest.hexdigest()
+
+
+@lru_cache(4)
+def _content(source: str, size: int, changed: int) -> bytes:
+    """The hash of a file's bytes; remembered, since the images of a movie are all in one file."""
+    digest = hashlib.blake2b(digest_size=32)
+    with open(source, "rb") as file:
+        while block := file.read(1 << 20):
+            digest.update(block)
+    return digest.digest()
 
 
 @cache

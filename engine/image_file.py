@@ -16,6 +16,7 @@ from typing import BinaryIO
 import cv2
 import numpy as np
 
+from . import movie
 from .errors import InvoluteError
 from .values import Array
 
@@ -34,6 +35,8 @@ def read_image(path: str | PathLike[str], page: int = 0) -> Array:
         InvoluteError: missing, damaged, too large, or not an image.
     """
     path = Path(path)
+    if movie.is_movie(path):
+        return cv2.cvtColor(movie.read_image(path, page), cv2.COLOR_BGR2RGB)
     try:
         data = np.fromfile(path, np.uint8)
     except FileNotFoundError:
@@ -62,11 +65,13 @@ def read_image(path: str | PathLike[str], page: int = 0) -> Array:
 
 
 def page_count(path: str | PathLike[str]) -> int:
-    """The number of pages of an image file: 1 for all but TIFFs with several; reads only headers.
+    """The number of pages of a TIFF, or of images in a movie, else 1; reads only headers.
 
     Raises:
         InvoluteError: there is no such file, or it can't be read.
     """
+    if movie.is_movie(path):
+        return movie.image_count(path)
     try:
         with open(path, "rb") as file:
             return max(1, len(_tiff_pages(file)))

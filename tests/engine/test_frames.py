@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import cv2
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from involute.engine import InvoluteError
+from involute.engine.image_file import page_count, read_image
 from involute.engine.sequence.frames import FrameRange, number_frames, number_pages
 
 
@@ -100,3 +103,20 @@ def test_pages_of_one_file():
         (1, 12),
         (2, 14),
     ]
+
+
+def test_a_movies_images_are_its_frames(tmp_path):
+    path = tmp_path / "clip.avi"
+    movie = cv2.VideoWriter(str(path), cv2.VideoWriter_fourcc(*"MJPG"), 12, (96, 64))
+    if not movie.isOpened():
+        pytest.skip("this OpenCV can't write movies")
+    for level in (40, 120, 200):
+        movie.write(np.full((64, 96, 3), level, np.uint8))
+    movie.release()
+    assert page_count(path) == 3
+    assert [round(float(read_image(path, k).mean()), -1) for k in (2, 0, 1)] == [200, 40, 120]
+    with pytest.raises(InvoluteError, match="no image 4"):
+        read_image(path, 3)
+    (tmp_path / "bad.mp4").write_text("not a movie")
+    with pytest.raises(InvoluteError, match="not a movie"):
+        page_count(tmp_path / "bad.mp4")
