@@ -2,7 +2,6 @@
 
 ridge -> skeleton -> junctions -> clean-up -> smoothing        (build_graph)
 widths, strength and colour of the ink along every branch      (measure)
-dust and scratches taken away                                  (sweep)
 """
 
 from __future__ import annotations
@@ -12,7 +11,6 @@ import numpy as np
 from ..settings import Settings
 from ..values import LineMaps, PlanarGraph
 from .cleanup import prune
-from .dust import sweep
 from .ends import place_ends
 from .junctions import resolve
 from .measure import measure
@@ -20,7 +18,7 @@ from .ridge import Ridge
 from .skeleton import Chains, thin, trace
 from .smoothing import even, smooth
 from .tips import open_tips, split_bends
-from .topology import select
+from .topology import contract, select
 
 
 def build_graph(maps: LineMaps, pen_width: float, settings: Settings) -> PlanarGraph:
@@ -38,7 +36,7 @@ def build_graph(maps: LineMaps, pen_width: float, settings: Settings) -> PlanarG
     chains = trace(thin(ridge.mask()))
     if len(chains.pixels) == 0:
         return PlanarGraph.empty()
-    graph = prune(_pixel_graph(chains, ridge), 3.0)
+    graph = prune(contract(_pixel_graph(chains, ridge), 2.0), 3.0)
     graph = split_bends(open_tips(graph, ridge.value, 2.0))
     graph = even(resolve(graph, ridge.value, 2.0))
     graph = place_ends(graph, ridge.value)
@@ -68,4 +66,4 @@ def _pixel_graph(chains: Chains, ridge: Ridge) -> PlanarGraph:
     return select(graph, ~((ends[:, 0] == ends[:, 1]) & (np.diff(chains.offsets) <= 3)))
 
 
-__all__ = ["build_graph", "measure", "sweep"]
+__all__ = ["build_graph", "measure"]

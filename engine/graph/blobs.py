@@ -13,9 +13,8 @@ from __future__ import annotations
 import numpy as np
 
 from ..values import PlanarGraph
-from .curves import ALONE, Fits, best_pairing, fit_pairs, pairs_within
-from .halves import Halves
-from .topology import lengths
+from .curves import ALONE, Continuations, Fits, best_pairing, pairs_within
+from .topology import connected, lengths
 
 Array = np.ndarray
 
@@ -26,13 +25,12 @@ GAIN = 0.4  # what a merger must save, in units of a half-branch that ends
 LARGEST = 8  # half-branches of one blob
 
 
-def find_blobs(graph: PlanarGraph, half: Halves, value: Array) -> tuple[Array, Array]:
+def find_blobs(graph: PlanarGraph, fits: Continuations) -> tuple[Array, Array]:
     """Group the junctions of a graph.
 
     Args:
         graph: the skeleton's graph.
-        half: the course of its half-branches.
-        value: (H, W) the smoothed centerline map.
+        fits: smooth continuations of its half-branches.
 
     Returns:
         (V,) int32 the blob of every vertex; (B,) bool the branches inside a blob.
@@ -46,18 +44,21 @@ def find_blobs(graph: PlanarGraph, half: Halves, value: Array) -> tuple[Array, A
     inner = link & (blob[a] == blob[b]) & (long < 2 * LINK)
     near = np.flatnonzero(link & (long < SHARED))
     for _ in range(4):
-        merged = _best_mergers(graph, half, value, blob, inner, near, long)
+        merged = _best_mergers(graph, fits, blob, inner, near, long)
         if not len(merged):
             break
         inner[merged] = True
         blob = connected(len(fork), blob[graph.ends[merged]])[blob]
+        # Only what has changed may merge again.
+        grown = np.zeros(len(fork), bool)
+        grown[blob[graph.ends[merged]]] = True
+        near = near[grown[blob[graph.ends[near]]].any(1)]
     return blob, inner
 
 
 def _best_mergers(
     graph: PlanarGraph,
-    half: Halves,
-    value: Array,
+    fits: Continuations,
     blob: Array,
     inner: Array,
     near: Array,
@@ -97,16 +98,16 @@ def _best_mergers(
     fits_in = count <= LARGEST
     owner, slot = owner[fits_in[owner]], slot[fits_in[owner]]
     pairs = pairs_within(owner)
-    fits = fit_pairs(half, slot[pairs], value)
-    chosen = best_pairing(owner, pairs, fits.cost)
+    found = fits.of(slot[pairs])
+    chosen = best_pairing(owner, pairs, found.cost)
     used = owner[pairs[chosen, 0]]
     cost = ALONE * (count - 2.0 * np.bincount(used, minlength=groups))
-    cost += np.bincount(used, fits.cost[chosen], groups)
+    cost += np.bincount(used, found.cost[chosen], groups)
 
     single = np.zeros(len(blob))
     single[alone] = cost[len(candidates) :]
     gain = np.where(candidates >= 0, single[candidates], 0).sum(1) - cost[: len(candidates)]
-    covered = _covered(graph, fits, np.flatnonzero(chosen), used, inner_owner, inner_branch)
+    covered = _covered(graph, found, np.flatnonzero(chosen), used, inner_owner, inner_branch)
     bad = np.zeros(groups, bool)
     bad[inner_owner[~covered]] = True
     good = (gain > GAIN) & ~bad[: len(candidates)] & fits_in[: len(candidates)]
@@ -145,24 +146,10 @@ def _covered(
     place = np.rint(first[:, None] + (last - first)[:, None] * np.linspace(0.2, 0.8, 7))
     points = graph.points[place.astype(np.int64)].astype(np.float64)
     row = np.repeat(np.arange(len(branch)), size)
-    aside = fits.distance(curve, points[row]).max(1)
+    aside = fits.pick(curve).distance(points[row]).max(1)
     covered = np.zeros(len(branch), bool)
     covered[row[aside < ASIDE]] = True
     return covered
-
-
-def connected(count: int, links: Array) -> Array:
-    """(count,) int32: the smallest number that each number is linked to by (K, 2) links."""
-    label = np.arange(count, dtype=np.int32)
-    while len(links):
-        low = np.minimum(label[links[:, 0]], label[links[:, 1]])
-        before = label.copy()
-        np.minimum.at(label, links[:, 0], low)
-        np.minimum.at(label, links[:, 1], low)
-        label = label[label]
-        if np.array_equal(label, before):
-            break
-    return label
 
 
 def _count_up(size: Array) -> Array:

@@ -8,13 +8,13 @@ decided later, by the routing.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cache
 from itertools import combinations
 
 import numpy as np
 
-from .halves import Halves
+from .halves import Halves, direction
 from .sampling import sample
 
 Array = np.ndarray
@@ -44,83 +44,118 @@ class Fits:
     offset: Array
     cost: Array
 
-    def sampled(self, chosen: Array) -> Array:
-        """(len(chosen), SAMPLES, 2) points from the first exit to the second."""
+    def pick(self, ids: Array) -> Fits:
+        """Some of them."""
+        return Fits(*(getattr(self, f.name)[ids] for f in fields(self)))
+
+    def then(self, other: Fits) -> Fits:
+        """These, and after them the others."""
+        both = ((getattr(self, f.name), getattr(other, f.name)) for f in fields(self))
+        return Fits(*(np.concatenate(pair) for pair in both))
+
+    def sampled(self) -> Array:
+        """(K, SAMPLES, 2) points from the first exit to the second."""
         t = np.linspace(0, 1, SAMPLES)
-        span = self.span[chosen]
-        x = span[:, :1] * (1 - t) + span[:, 1:] * t
-        y = _value(self.coefficients[chosen], x)
-        y += self.offset[chosen, :1] * (1 - t) + self.offset[chosen, 1:] * t
-        return self._world(chosen, x, y)
+        x = self.span[:, :1] * (1 - t) + self.span[:, 1:] * t
+        y = _value(self.coefficients, x) + self.offset[:, :1] * (1 - t) + self.offset[:, 1:] * t
+        ax, ay = self.axis[:, None, 0], self.axis[:, None, 1]
+        x = x * self.scale[:, None]
+        return self.origin[:, None] + np.stack([x * ax - y * ay, x * ay + y * ax], -1)
 
-    def distance(self, chosen: Array, points: Array) -> Array:
-        """(len(chosen), N) px: how far points (len(chosen), N, 2) lie beside their curve."""
-        x, y = _local(points, self.origin[chosen], self.axis[chosen], self.scale[chosen])
-        coefficients = self.coefficients[chosen]
-        slope = _slope(coefficients, x) / self.scale[chosen, None]
-        return np.abs(y - _value(coefficients, x)) / np.hypot(1, slope)
-
-    def _world(self, chosen: Array, x: Array, y: Array) -> Array:
-        axis = self.axis[chosen, None, :]
-        normal = np.stack([-axis[..., 1], axis[..., 0]], -1)
-        scale = self.scale[chosen, None, None]
-        return self.origin[chosen, None, :] + x[..., None] * scale * axis + y[..., None] * normal
+    def distance(self, points: Array) -> Array:
+        """(K, N) px: how far points (K, N, 2) lie beside their curve."""
+        x, y = _local(points, self.origin, self.axis, self.scale)
+        slope = _slope(self.coefficients, x) / self.scale[:, None]
+        return np.abs(y - _value(self.coefficients, x)) / np.hypot(1, slope)
 
 
-def fit_pairs(half: Halves, pairs: Array, value: Array) -> Fits:
-    """One cubic through both half-branches of each pair.
+class Continuations:
+    """The cubics through pairs of half-branches, each fitted when first asked for.
 
     Args:
         half: the course of all half-branches.
-        pairs: (K, 2) half-branches.
         value: (H, W) the smoothed centerline map; a curve that leaves the ink is out.
     """
+
+    def __init__(self, half: Halves, value: Array) -> None:
+        self._half = half
+        self._value = value
+        self._keys = np.zeros(0, np.int64)
+        self._fits = _fit(half, np.zeros((0, 2), np.int64), value)
+
+    def of(self, pairs: Array) -> Fits:
+        """The fits of pairs (K, 2) of half-branches, from the first of each to the second."""
+        count = len(self._half.exit)
+        keys = pairs[:, 0].astype(np.int64) * count + pairs[:, 1]
+        fresh = np.setdiff1d(keys, self._keys)
+        if len(fresh):
+            fits = _fit(self._half, np.stack(np.divmod(fresh, count), -1), self._value)
+            self._keys = np.concatenate([self._keys, fresh])
+            order = np.argsort(self._keys)
+            self._keys = self._keys[order]
+            self._fits = self._fits.then(fits).pick(order)
+        return self._fits.pick(np.searchsorted(self._keys, keys))
+
+
+def _fit(half: Halves, pairs: Array, value: Array) -> Fits:
+    """One cubic through both half-branches of each pair."""
     a, b = pairs.T
-    points, weights = half.points, half.weights
-    exit_a, exit_b = points[a, 0], points[b, 0]
-    gap = np.hypot(*(exit_b - exit_a).T)
-    # The longer the gap, the more of both sides is needed to bridge it.
-    reach = np.clip(0.75 * gap, 6.0, 14.0)[:, None]
-    fade = np.exp(-((np.arange(points.shape[1]) / reach) ** 2))
-    weight = np.concatenate([weights[a] * fade, weights[b] * fade], 1)
-    both = np.concatenate([points[a], points[b]], 1)
-    center_a = _mean(points[a], weights[a] * fade)
-    center_b = _mean(points[b], weights[b] * fade)
-    chord = center_b - center_a
+    chord = half.center[b] - half.center[a]
     length = np.hypot(*chord.T)
     axis = chord / np.maximum(length, 1e-9)[:, None]
     scale = np.maximum(length, 1.0)
-    origin = (exit_a + exit_b) / 2
-    x, y = _local(both, origin, axis, scale)
-    powers = x[..., None] ** np.arange(4)
-    weighted = powers * weight[..., None]
-    normal = np.einsum("kni,knj->kij", weighted, powers)
-    # Just enough to keep short half-branches solvable; cubics are dearer than lines.
-    normal += np.diag([1e-6, 1e-6, 1e-3, 1e-2])
-    coefficients = np.linalg.solve(normal, np.einsum("kni,kn->ki", weighted, y)[..., None])[..., 0]
-    residual = y - _value(coefficients, x)
-    rms = np.sqrt((weight * residual**2).sum(1) / np.maximum(weight.sum(1), 1e-9))
+    origin = (half.points[a, 0] + half.points[b, 0]) / 2
+    # Both sides must lie on their own side of the blob, and run away from it.
+    apart = ((half.outward[a] * axis).sum(1) < -0.4) & ((half.outward[b] * axis).sum(1) > 0.4)
+    some = np.flatnonzero(apart)
+    cost = np.full(len(pairs), NEVER)
+    coefficients, span, offset = (np.zeros((len(pairs), n)) for n in (4, 2, 2))
+    fits = Fits(origin, axis, scale, coefficients, span, offset, cost)
+    if not len(some):
+        return fits
 
-    n = points.shape[1]
-    span = np.stack([x[:, 0], x[:, n]], -1)
-    at_exit = np.stack([y[:, 0], y[:, n]], -1) - _value(coefficients, span)
-    slope = _slope(coefficients, span) / scale[:, None]
-    angle = np.arctan(slope)
-    across = _value(coefficients, span)
-    wide = np.maximum((span[:, 1] - span[:, 0]) * scale, 1e-9)
+    a, b = pairs[some].T
+    gap = np.hypot(*(half.points[b, 0] - half.points[a, 0]).T)
+    # The longer the gap, the more of both sides is needed to bridge it.
+    reach = np.clip(0.75 * gap, 6.0, 14.0)[:, None]
+    fade = np.exp(-((np.arange(half.points.shape[1]) / reach) ** 2))
+    weight = np.concatenate([half.weights[a] * fade, half.weights[b] * fade], 1)
+    both = np.concatenate([half.points[a], half.points[b]], 1)
+    x, y = _local(both, origin[some], axis[some], scale[some])
+    c, rms = _cubic(x, y, weight)
+
+    n = half.points.shape[1]
+    ends = np.stack([x[:, 0], x[:, n]], -1)
+    across = _value(c, ends)
+    angle = np.arctan(_slope(c, ends) / scale[some, None])
+    wide = np.maximum((ends[:, 1] - ends[:, 0]) * scale[some], 1e-9)
     lean = np.arctan2(across[:, 1] - across[:, 0], wide)
     turn = angle[:, 1] - angle[:, 0]
     swerve = angle.mean(1) - lean
-    cost = (rms / NOISE) ** 2 + (turn / TURN) ** 2 + (swerve / SWERVE) ** 2
-    # Both sides must lie on their own side of the blob, and run away from it.
-    out_a = _direction(points[a], weights[a] * fade)
-    out_b = _direction(points[b], weights[b] * fade)
-    backwards = ((out_a * axis).sum(1) > -0.4) | ((out_b * axis).sum(1) < 0.4)
-    cost[backwards | (span[:, 1] < span[:, 0]) | ~np.isfinite(cost)] = NEVER
-    fits = Fits(origin, axis, scale, coefficients, span, at_exit, np.minimum(cost, NEVER))
-    dark = sample(value, fits.sampled(np.arange(len(pairs)))).min(1)
-    fits.cost[dark < INK * np.minimum(half.level[a], half.level[b])] = NEVER
+    total = (rms / NOISE) ** 2 + (turn / TURN) ** 2 + (swerve / SWERVE) ** 2
+    total[(ends[:, 1] < ends[:, 0]) | ~np.isfinite(total)] = NEVER
+    coefficients[some], span[some] = c, ends
+    offset[some] = np.stack([y[:, 0], y[:, n]], -1) - across
+    dark = sample(value, fits.pick(some).sampled()).min(1)
+    total[dark < INK * np.minimum(half.level[a], half.level[b])] = NEVER
+    cost[some] = np.minimum(total, NEVER)
     return fits
+
+
+def _cubic(x: Array, y: Array, weight: Array) -> tuple[Array, Array]:
+    """Weighted least-squares cubics: coefficients (K, 4) and root mean square residuals (K,)."""
+    moments, mixed, power = [], [], weight
+    for p in range(7):
+        moments.append(power.sum(1))
+        if p < 4:
+            mixed.append((power * y).sum(1))
+        power = power * x
+    # Just enough to keep short half-branches solvable; cubics are dearer than lines.
+    normal = np.stack([np.stack(moments[p : p + 4], -1) for p in range(4)], 1)
+    normal = normal + np.diag([1e-6, 1e-6, 1e-3, 1e-2])
+    c = np.linalg.solve(normal, np.stack(mixed, -1)[..., None])[..., 0]
+    residual = y - _value(c, x)
+    return c, np.sqrt((weight * residual**2).sum(1) / np.maximum(moments[0], 1e-9))
 
 
 def extend(points: Array, weights: Array, reach: Array) -> Array:
@@ -135,7 +170,7 @@ def extend(points: Array, weights: Array, reach: Array) -> Array:
     """
     fade = np.exp(-((np.arange(points.shape[1]) / 8.0) ** 2))
     weight = weights * fade
-    inward = -_direction(points, weight)
+    inward = -direction(points, weight)
     exit_point = points[:, :1]
     offset = points - exit_point
     x = -(offset * inward[:, None]).sum(-1)
@@ -247,17 +282,3 @@ def _value(coefficients: Array, x: Array) -> Array:
 
 def _slope(coefficients: Array, x: Array) -> Array:
     return _value(coefficients[:, 1:] * np.arange(1, coefficients.shape[1]), x)
-
-
-def _mean(points: Array, weights: Array) -> Array:
-    return (points * weights[..., None]).sum(1) / np.maximum(weights.sum(1), 1e-9)[:, None]
-
-
-def _direction(points: Array, weights: Array) -> Array:
-    """Unit direction (K, 2) along which each course runs on, from its first point outward."""
-    centred = points - _mean(points, weights)[:, None]
-    place = np.arange(points.shape[1], dtype=np.float64)
-    total = np.maximum(weights.sum(1), 1e-9)
-    place = place - ((weights * place).sum(1) / total)[:, None]
-    slope = ((weights * place)[..., None] * centred).sum(1)
-    return slope / np.maximum(np.hypot(*slope.T), 1e-9)[:, None]

@@ -16,6 +16,7 @@ from .sampling import sample
 Array = np.ndarray
 
 _BACK, _AHEAD, _STEP = 3.0, 3.0, 0.25  # px searched before and after the skeleton's end
+LEFT = 0.6
 _INSIDE = 8  # points of the branch that give its direction and its brightness
 
 
@@ -49,13 +50,16 @@ def place_ends(graph: PlanarGraph, value: Array) -> PlanarGraph:
     reach = np.arange(-_BACK, _AHEAD + _STEP / 2, _STEP)
     tips = graph.points[tip].astype(np.float64)
     profile = sample(value, tips[:, None] + reach[:, None] * outward[:, None])
-    lit = profile > 0.5 * level[:, None]
+    half = LEFT * level[:, None]
+    # Where it grows brighter again, another line begins.
+    falls = np.diff(profile, axis=1, prepend=profile[:, :1]) < 0.01 * level[:, None]
+    lit = (profile > half) & (falls | (reach < 0.5))
     # The first dark sample, seen from inside; exactly where the profile crosses half the level.
     dark = np.where(lit.all(1), len(reach) - 1, np.argmin(lit, axis=1))
     before = np.maximum(dark - 1, 0)
     rows = np.arange(len(free))
     high, low = profile[rows, before], profile[rows, dark]
-    part = np.clip((high - 0.5 * level) / np.maximum(high - low, 1e-6), 0, 1)
+    part = np.clip((high - half[:, 0]) / np.maximum(high - low, 1e-6), 0, 1)
     move = np.where(dark > 0, reach[before] + part * _STEP, -_BACK)
     move = np.maximum(move, -0.5 * np.minimum(_BACK, room))
     points, vertices = graph.points.copy(), graph.vertices.copy()

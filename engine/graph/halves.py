@@ -13,13 +13,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..values import PlanarGraph
-from .ridge import SIGMA
 from .sampling import sample
 
 Array = np.ndarray
 
 WINDOW = 16  # points of a half-branch, outside its blob, that tell where it goes
-REACH = 3.5
+REACH = 1.6  # px; a second line nearer than this bends the ridge of a first one noticeably
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,12 +29,15 @@ class Halves:
     points: (2B, WINDOW, 2) float64, px, and weights: (2B, WINDOW) float64: the course from there
         on; the weight is small where a neighbour spoils the ridge, 0 past the end of the branch.
     level: (2B,) float64, mean brightness of the ridge along that course.
+    center (2B, 2), outward (2B, 2): its middle, and the unit direction away from the blob.
     """
 
     exit: Array
     points: Array
     weights: Array
     level: Array
+    center: Array
+    outward: Array
 
 
 def _spoilt(graph: PlanarGraph, shape: tuple[int, int], reach: float) -> Array:
@@ -69,7 +71,7 @@ def read_halves(graph: PlanarGraph, value: Array, pen: float) -> Halves:
         value: (H, W) the smoothed centerline map.
         pen: width of the ridge, px.
     """
-    dirty = _spoilt(graph, value.shape, REACH * SIGMA * max(1.0, pen / 2))
+    dirty = _spoilt(graph, value.shape, REACH * max(1.0, pen / 2))
     starts, stops = graph.offsets[:-1].astype(np.int64), graph.offsets[1:].astype(np.int64) - 1
     index = np.arange(len(graph.points))
     usable = np.where(dirty, len(index), index)
@@ -93,4 +95,22 @@ def read_halves(graph: PlanarGraph, value: Array, pen: float) -> Halves:
     points = graph.points[place].astype(np.float64)
     total = np.maximum(weights.sum(1), 1e-9)
     level = (sample(value, points) * weights).sum(1) / total
-    return Halves(begin.astype(np.int32), points, weights, level)
+    near = weights * np.exp(-((np.arange(WINDOW) / 8.0) ** 2))
+    center = _mean(points, near)
+    outward = direction(points, near)
+    return Halves(begin.astype(np.int32), points, weights, level, center, outward)
+
+
+def direction(points: Array, weights: Array) -> Array:
+    """Unit direction (K, 2) along which each course (K, N, 2) runs on from its first point."""
+    centred = points - _mean(points, weights)[:, None]
+    place = np.arange(points.shape[1], dtype=np.float64)
+    total = np.maximum(weights.sum(1), 1e-9)
+    place = place - ((weights * place).sum(1) / total)[:, None]
+    slope = ((weights * place)[..., None] * centred).sum(1)
+    return slope / np.maximum(np.hypot(*slope.T), 1e-9)[:, None]
+
+
+def _mean(points: Array, weights: Array) -> Array:
+    total = np.maximum(weights.sum(1), 1e-9)
+    return (points * weights[..., None]).sum(1) / total[:, None]

@@ -13,11 +13,11 @@ from __future__ import annotations
 import numpy as np
 
 from ..values import PlanarGraph
-from .blobs import connected, find_blobs
-from .curves import SAMPLES, best_pairing, extend, fit_pairs, pairs_within
+from .blobs import find_blobs
+from .curves import SAMPLES, Continuations, best_pairing, extend, pairs_within
 from .halves import Halves, read_halves
 from .sampling import sample
-from .topology import join, select
+from .topology import connected, join, select
 
 Array = np.ndarray
 
@@ -40,18 +40,24 @@ def resolve(graph: PlanarGraph, value: Array, pen: float) -> PlanarGraph:
     if not active.any():
         return graph
     half = read_halves(graph, value, pen)
-    blob, inner = find_blobs(graph, half, value)
-    return _rebuild(graph, half, np.where(active, blob, -1), inner, value)
+    fits = Continuations(half, value)
+    blob, inner = find_blobs(graph, fits)
+    return _rebuild(graph, half, fits, np.where(active, blob, -1), inner, value)
 
 
 def _rebuild(
-    graph: PlanarGraph, half: Halves, group: Array, inner: Array, value: Array
+    graph: PlanarGraph,
+    half: Halves,
+    fits: Continuations,
+    group: Array,
+    inner: Array,
+    value: Array,
 ) -> PlanarGraph:
     """Replace all blobs by curves; see the module's docstring."""
     h_group = np.where(np.repeat(inner, 2), -1, group[graph.half_vertex])
     pairs = pairs_within(h_group)
-    fits = fit_pairs(half, pairs, value)
-    chosen = np.flatnonzero(best_pairing(h_group, pairs, fits.cost))
+    found = fits.of(pairs)
+    chosen = np.flatnonzero(best_pairing(h_group, pairs, found.cost))
     through = pairs[chosen]
     alone = h_group >= 0
     alone[through] = False
@@ -73,7 +79,7 @@ def _rebuild(
 
     to_middle = np.hypot(*(middle[blob[stems]] - exits[stems]).T)
     path = extend(half.points[stems], half.weights[stems], to_middle + MERGE + 1.0)
-    curves = np.concatenate([fits.sampled(chosen), path])
+    curves = np.concatenate([found.pick(chosen).sampled(), path])
     curve_blob = np.concatenate([blob[through[:, 0]], blob[stems]]).astype(np.int64)
     is_stem = np.arange(len(curves)) >= len(chosen)
 

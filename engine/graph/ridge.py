@@ -36,9 +36,10 @@ class Ridge:
     dyy: Array
 
     @staticmethod
-    def of(centerline: Array, sigma: float = SIGMA) -> Ridge:
+    def of(centerline: Array, sigma: float | None = None) -> Ridge:
         """Derivatives of a centerline map (H, W) at scale sigma (px)."""
         image = np.ascontiguousarray(centerline, np.float32)
+        sigma = SIGMA if sigma is None else sigma
         radius = int(np.ceil(4 * sigma))
         x = np.arange(-radius, radius + 1, dtype=np.float64)
         g0 = np.exp(-0.5 * (x / sigma) ** 2)

@@ -13,7 +13,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..values import PlanarGraph
-from .curves import ALONE, fit_pairs
+from .curves import ALONE, Continuations
 from .halves import read_halves
 from .topology import lengths, select
 
@@ -46,16 +46,14 @@ def open_tips(graph: PlanarGraph, value: Array, pen: float) -> PlanarGraph:
     three = order[start[vertex[stem]][:, None] + np.arange(3)]
     arms = three[three != stem[:, None]].reshape(-1, 2)
     half = read_halves(graph, value, pen)
-    along = np.maximum(
-        fit_pairs(half, np.stack([arms[:, 0], stem], -1), value).cost,
-        fit_pairs(half, np.stack([arms[:, 1], stem], -1), value).cost,
-    )
-    across = fit_pairs(half, arms, value).cost
+    fits = Continuations(half, value)
+    along = np.maximum(*(fits.of(np.stack([arms[:, k], stem], -1)).cost for k in (0, 1)))
+    across = fits.of(arms).cost
     # How long two lines overlap depends on how fast they part.
     parting = np.hypot(
         *(half.points[arms, 0] - graph.vertices[vertex[stem]][:, None]).transpose(2, 0, 1)
     )
-    tip = (along < ALONE) & (across > 2 * ALONE) & (long[stem] < 3.5 * parting.max(1) + 2.0)
+    tip = (along < 2 * ALONE) & (across > 2 * ALONE) & (long[stem] < 3.5 * parting.max(1) + 2.0)
     stem = stem[tip]
     # The fork moves to the tip; its arms follow when it is resolved.
     vertices, points = graph.vertices.copy(), graph.points.copy()

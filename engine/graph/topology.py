@@ -17,14 +17,11 @@ def select(graph: PlanarGraph, keep: Array) -> PlanarGraph:
     used = np.zeros(len(graph.vertices), bool)
     used[ends] = True
     number = np.cumsum(used) - 1
-    stays = np.repeat(keep, counts)
-    measured = (graph.widths, graph.strength, graph.colors)
     return PlanarGraph(
         graph.vertices[used],
-        graph.points[stays],
+        graph.points[np.repeat(keep, counts)],
         np.concatenate([[0], np.cumsum(counts[keep])]).astype(np.int32),
         number[ends].astype(np.int32).reshape(-1, 2),
-        *(None if values is None else values[stays] for values in measured),
     )
 
 
@@ -52,6 +49,37 @@ def join(graph: PlanarGraph) -> PlanarGraph:
         graph.vertices, points, total[bounds].astype(np.int32), ends.astype(np.int32)
     )
     return select(joined, np.ones(joined.branch_count, bool))
+
+
+def contract(graph: PlanarGraph, shortest: float) -> PlanarGraph:
+    """Make one vertex of those that branches shorter than `shortest` px link, and drop these."""
+    link = (lengths(graph) < shortest) & (graph.degrees[graph.ends] >= 3).all(1)
+    if not link.any():
+        return graph
+    label = connected(len(graph.vertices), graph.ends[link])
+    count = np.maximum(np.bincount(label, minlength=len(label)), 1)
+    vertices = np.stack(
+        [np.bincount(label, graph.vertices[:, k], len(label)) / count for k in (0, 1)], -1
+    ).astype(np.float32)
+    ends = label[graph.ends]
+    points = graph.points.copy()
+    points[graph.offsets[:-1]] = vertices[ends[:, 0]]
+    points[graph.offsets[1:] - 1] = vertices[ends[:, 1]]
+    return join(select(PlanarGraph(vertices, points, graph.offsets, ends), ~link))
+
+
+def connected(count: int, links: Array) -> Array:
+    """(count,) int32: the smallest number that each number is linked to by (K, 2) links."""
+    label = np.arange(count, dtype=np.int32)
+    while len(links):
+        low = np.minimum(label[links[:, 0]], label[links[:, 1]])
+        before = label.copy()
+        np.minimum.at(label, links[:, 0], low)
+        np.minimum.at(label, links[:, 1], low)
+        label = label[label]
+        if np.array_equal(label, before):
+            break
+    return label
 
 
 def lengths(graph: PlanarGraph) -> Array:
