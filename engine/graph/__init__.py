@@ -2,6 +2,7 @@
 
 ridge -> skeleton -> junctions -> clean-up -> smoothing        (build_graph)
 widths, strength and colour of the ink along every branch      (measure)
+dust and scratches taken away                                  (sweep)
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ import numpy as np
 from ..settings import Settings
 from ..values import LineMaps, PlanarGraph
 from .cleanup import prune
+from .dust import sweep
 from .ends import place_ends
 from .junctions import resolve
 from .measure import measure
@@ -66,4 +68,4 @@ def _pixel_graph(chains: Chains, ridge: Ridge) -> PlanarGraph:
     return select(graph, ~((ends[:, 0] == ends[:, 1]) & (np.diff(chains.offsets) <= 3)))
 
 
-__all__ = ["build_graph", "measure"]
+__all__ = ["build_graph", "measure", "sweep"]

@@ -17,11 +17,14 @@ def select(graph: PlanarGraph, keep: Array) -> PlanarGraph:
     used = np.zeros(len(graph.vertices), bool)
     used[ends] = True
     number = np.cumsum(used) - 1
+    stays = np.repeat(keep, counts)
+    measured = (graph.widths, graph.strength, graph.colors)
     return PlanarGraph(
         graph.vertices[used],
-        graph.points[np.repeat(keep, counts)],
+        graph.points[stays],
         np.concatenate([[0], np.cumsum(counts[keep])]).astype(np.int32),
         number[ends].astype(np.int32).reshape(-1, 2),
+        *(None if values is None else values[stays] for values in measured),
     )
 
 
