@@ -59,18 +59,26 @@ def _ints(value: int | memoryview) -> list[int]:
     return out
 
 
+_FLOATS = {1: "<f4", 10: "<f2"}  # data_type of a TensorProto -> of NumPy
+
+
 def _tensor(message: memoryview) -> tuple[str, Tensor]:
-    """A TensorProto of floats: dims 1, name 8, raw_data 9."""
+    """A TensorProto of floats: dims 1, data_type 2, name 8, raw_data 9."""
     dims: list[int] = []
-    name, raw = "", memoryview(b"")
+    name, raw, kind = "", memoryview(b""), 1
     for number, value in _fields(message):
         if number == 1:
             dims += _ints(value)
+        elif number == 2:
+            kind = value
         elif number == 8:
             name = bytes(value).decode()
         elif number == 9:
             raw = value
-    return name, torch.from_numpy(np.frombuffer(raw, "<f4").reshape(dims).copy())
+    if kind not in _FLOATS:
+        raise InvoluteError(f"The weights file holds numbers of a kind that is not known: {kind}.")
+    array = np.frombuffer(raw, _FLOATS[kind]).reshape(dims)
+    return name, torch.from_numpy(array.astype(np.float32))
 
 
 @dataclass(frozen=True)
@@ -130,7 +138,7 @@ def _run(node: _Node, given: list[Tensor]) -> Tensor:
         return given[0].sigmoid()
     if node.kind == "Concat":
         return torch.cat(given, a["axis"][0])
-    if node.kind == "Identity":
+    if node.kind in ("Identity", "Cast"):  # all numbers are 32-bit floats here
         return given[0]
     if node.kind in ("Conv", "ConvTranspose"):
         convolve = nn.functional.conv2d if node.kind == "Conv" else nn.functional.conv_transpose2d

@@ -6,13 +6,17 @@ python -m involute.training.centerline.export --checkpoint RUN/checkpoint.pt --o
 from __future__ import annotations
 
 import argparse
+import copy
 import warnings
 from pathlib import Path
 
 import numpy as np
+import onnx
 import torch
 from involute.engine.centerline.backends import load
 from involute.engine.centerline.network import STRIDE
+from torch import nn
+from torch.nn.utils.fusion import fuse_conv_bn_eval
 
 from .model import CenterlineNet, Exported
 
@@ -44,14 +48,26 @@ def read_checkpoint(path: Path) -> CenterlineNet:
     return net
 
 
+def folded(net: CenterlineNet) -> CenterlineNet:
+    """The network with its normalisation folded into the weights, and these rounded to 16 bit."""
+    net = copy.deepcopy(net).eval()
+    for layer in net.modules():
+        if isinstance(layer, nn.Sequential) and isinstance(layer[1], nn.BatchNorm2d):
+            layer[0] = fuse_conv_bn_eval(layer[0], layer[1])
+            layer[1] = nn.Identity()
+    for weight in net.parameters():
+        weight.data = weight.data.half().float()
+    return net
+
+
 def export(net: CenterlineNet, out: Path) -> None:
-    """Write the network with its final activation; normalisation is folded into the weights."""
+    """Write the network with its final activation, weights as 16 bit."""
     part = out.with_suffix(".part")
     with warnings.catch_warnings():
         # The newer exporter needs another package and gains nothing for plain convolutions.
         warnings.simplefilter("ignore")
         torch.onnx.export(
-            Exported(net).eval(),
+            Exported(folded(net)).eval(),
             (torch.zeros(1, 1, 8 * STRIDE, 8 * STRIDE),),
             str(part),
             dynamo=False,
@@ -60,7 +76,26 @@ def export(net: CenterlineNet, out: Path) -> None:
             output_names=["maps"],
             dynamic_axes={"ink": {2: "height", 3: "width"}, "maps": {2: "height", 3: "width"}},
         )
+    _halve(part)
     part.replace(out)
+
+
+def _halve(path: Path) -> None:
+    """Store the weights as 16-bit numbers; whoever reads them casts them back."""
+    model = onnx.load(path)
+    graph = model.graph
+    casts = []
+    for weight in graph.initializer:
+        name = weight.name
+        small = onnx.numpy_helper.to_array(weight).astype(np.float16)
+        weight.CopyFrom(onnx.numpy_helper.from_array(small, f"{name}.half"))
+        casts.append(
+            onnx.helper.make_node("Cast", [weight.name], [name], to=onnx.TensorProto.FLOAT)
+        )
+    nodes = [*casts, *graph.node]
+    del graph.node[:]
+    graph.node.extend(nodes)
+    onnx.save(model, path)
 
 
 def worst_difference(net: CenterlineNet, weights: Path) -> float:
@@ -74,7 +109,7 @@ def worst_difference(net: CenterlineNet, weights: Path) -> float:
     ink[rng.integers(0, len(ink), 6)] = 1.0
     seen = load(weights, "cpu")(ink)
     with torch.inference_mode():
-        wanted = Exported(net).eval()(torch.from_numpy(ink[None, None]))[0].numpy()
+        wanted = Exported(folded(net))(torch.from_numpy(ink[None, None]))[0].numpy()
     worst = float(np.abs(seen - wanted).max())
     if worst > TOLERANCE:
         raise ValueError(f"OpenCV and torch differ by {worst:.1e}.")
