@@ -38,6 +38,7 @@ _HELP = {
     "inks": "make all strokes black instead of the colour of their ink",
     "ignore_inks": "inks that are not traced, such as blue or blue,gray",
     "marks": "trace scan borders, punched holes and registration marks too",
+    "regions": "fill the closed regions between the lines (only in .blend)",
     "min_length": "drop loose strokes shorter than this many pen widths",
     "smoothing": "0 keeps every wobble, 1 is very smooth",
     "router": "what decides how strokes run through junctions",
@@ -193,7 +194,9 @@ def _add_settings(parser: argparse.ArgumentParser) -> None:
     for setting in _optional():
         option, text = setting.name.replace("_", "-"), _HELP[setting.name]
         if types[setting.name] is bool:
-            group.add_argument(f"--no-{option}", dest=setting.name, action="store_false", help=text)
+            name = f"--no-{option}" if setting.default else f"--{option}"
+            does = "store_false" if setting.default else "store_true"
+            group.add_argument(name, dest=setting.name, action=does, help=text)
             continue
         kind: dict[str, Any] = {"type": float, "metavar": "X"}
         if get_origin(types[setting.name]) is Literal:

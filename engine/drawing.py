@@ -101,6 +101,15 @@ class Drawing:
             )
         return tuple(found)
 
+    @cached_property
+    def regions(self) -> tuple[Fill, ...]:
+        """The closed regions between the lines, the largest first; specks are left out."""
+        from .faces import closed_regions
+
+        if self.graph.branch_count == 0:
+            return ()
+        return closed_regions(self.graph, 4.0 * float(np.median(self.graph.widths)) ** 2)
+
     @property
     def doubtful(self) -> tuple[int, ...]:
         """The doubtful junctions that are not locked, most doubtful first."""

@@ -43,6 +43,7 @@ class Settings:
         inks: give the strokes the colour of their ink; off = all strokes are black.
         ignore_inks: inks that are not traced, such as a blue construction pencil; see `INKS`.
         marks: leave out scan borders, punched holes and registration marks.
+        regions: fill the closed regions between the lines, on a layer below (in Blender).
         align: where the punched holes (or marks) shall lie, in px of the input; the page is turned
             and moved to that; see `registration.anchors_of`. Empty = the page stays as it lies.
 
@@ -65,6 +66,7 @@ class Settings:
     inks: bool = True
     ignore_inks: tuple[str, ...] = ()
     marks: bool = True
+    regions: bool = False
     align: tuple[tuple[float, float], ...] = ()
     min_length: float = 1.0
     smoothing: float = 0.3

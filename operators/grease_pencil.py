@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 Array = np.ndarray
 
 FILL_LAYER = "Solids"
+REGION_LAYER = "Regions"
+_BELOW = (FILL_LAYER, REGION_LAYER)  # the last lies lowest
 _FILLS_BY_STROKE = (5, 1, 0)  # since then strokes say whether they are filled, not materials
 _TYPE_NAMES = {0: "CATMULL_ROM", 1: "POLY", 2: "BEZIER", 3: "NURBS"}
 
@@ -76,7 +78,12 @@ def write(
     written: set[str] = set()
     if drawing.fills:
         written.add(FILL_LAYER)
-        _write_fills(_keyframe(data, FILL_LAYER, frame), data, drawing, placement, key)
+        fills = _keyframe(data, FILL_LAYER, frame), data, drawing.fills
+        _write_fills(*fills, FILL_LAYER, (0, 0, 0), placement, key)
+    if drawing.settings.regions and drawing.regions:
+        written.add(REGION_LAYER)
+        fills = _keyframe(data, REGION_LAYER, frame), data, drawing.regions
+        _write_fills(*fills, REGION_LAYER, (255, 255, 255), placement, key)
     inks: dict[tuple[int, int, int], list[Stroke]] = {}
     for stroke in drawing.strokes:
         inks.setdefault(tuple(stroke.color), []).append(stroke)
@@ -198,10 +205,12 @@ def _keyframe(data: bpy.types.ID, name: str, frame: int) -> object:
     """The drawing of a layer's keyframe without traced strokes; made when it is missing."""
     layer = data.layers.get(name)
     if layer is None:
-        layer = data.layers.new(name, set_active=name != FILL_LAYER)
+        layer = data.layers.new(name, set_active=name not in _BELOW)
         layer.use_lights = False
-        if name == FILL_LAYER:
-            data.layers.move_bottom(layer)
+        if name in _BELOW:
+            for below in _BELOW:
+                if below in data.layers:
+                    data.layers.move_bottom(data.layers[below])
     key = next((k for k in layer.frames if k.frame_number == frame), None)
     drawing = (key or layer.frames.new(frame)).drawing
     if _has_traces(drawing):
@@ -233,13 +242,20 @@ def _material_slot(data: bpy.types.ID, name: str, color: Sequence[int], fill: bo
 
 
 def _write_fills(
-    drawing: object, data: bpy.types.ID, source: Drawing, placement: Placement, key: int
+    drawing: object,
+    data: bpy.types.ID,
+    fills: Sequence[Sequence[Array]],
+    name: str,
+    color: tuple[int, int, int],
+    placement: Placement,
+    key: int,
 ) -> None:
-    outlines = [bridge_holes(rings) for rings in source.fills]
+    """Write areas, each the rings of its outline and holes, as filled strokes without a line."""
+    outlines = [bridge_holes(rings) for rings in fills]
     outlines = [ring for ring in outlines if len(ring) >= 3]
     sizes = np.array([len(ring) for ring in outlines], np.int32)
     offsets = np.concatenate([[0], np.cumsum(sizes)]).astype(np.int32)
-    material = _material_slot(data, FILL_LAYER, (0, 0, 0), fill=True)
+    material = _material_slot(data, name, color, fill=True)
     count, total = len(outlines), int(offsets[-1])
     points = np.concatenate(outlines)
     curves = {

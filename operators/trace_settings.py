@@ -71,6 +71,11 @@ class TraceSettings:
         description="Don't trace scan borders, punched holes and registration marks",
         default=_DEFAULTS.marks,
     )
+    regions: BoolProperty(
+        name="Fill Regions",
+        description="Fill the closed regions between the lines with white, on a layer below",
+        default=_DEFAULTS.regions,
+    )
     min_length: FloatProperty(
         name="Specks",
         description="Drop lone strokes shorter than this many pen widths",

@@ -8,7 +8,10 @@ if TYPE_CHECKING:
     import bpy
 
 GROUPS = (
-    ("What the Drawing Is", ("polarity", "pen_width", "inks", "ignore_inks", "solids", "marks")),
+    (
+        "What the Drawing Is",
+        ("polarity", "pen_width", "inks", "ignore_inks", "solids", "marks", "regions"),
+    ),
     ("How Clean", ("min_length", "smoothing", "provider", "router", "device")),
     ("How Many Points", ("curve", "tolerance")),
 )
