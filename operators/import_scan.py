@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import bpy
-from bpy.props import BoolProperty, CollectionProperty, StringProperty
+from bpy.props import CollectionProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper
 
 from .sources import SUFFIXES
@@ -25,11 +25,6 @@ class INVOLUTE_OT_import_scan(TraceSettings, bpy.types.Operator, ImportHelper):
     files: CollectionProperty(
         type=bpy.types.OperatorFileListElement, options={"SKIP_SAVE", "HIDDEN"}
     )
-    as_keyframes: BoolProperty(
-        name="As Keyframes",
-        description="The files become keyframes of one object, numbered by their names",
-        default=False,
-    )
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         if self.filepath or self.files:  # dropped
@@ -43,7 +38,6 @@ class INVOLUTE_OT_import_scan(TraceSettings, bpy.types.Operator, ImportHelper):
                 filepath=self.filepath,
                 directory=self.directory,
                 files=[{"name": file.name} for file in self.files],
-                as_keyframes=self.as_keyframes,
                 **as_values(self),
             )
         except RuntimeError as problem:  # what the trace reported
@@ -56,7 +50,6 @@ class INVOLUTE_OT_import_scan(TraceSettings, bpy.types.Operator, ImportHelper):
 
         self.layout.use_property_split = True
         self.layout.use_property_decorate = False
-        self.layout.prop(self, "as_keyframes")
         draw_settings(self.layout, self)
 
 

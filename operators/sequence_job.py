@@ -11,7 +11,7 @@ from queue import Empty, SimpleQueue
 from typing import TYPE_CHECKING
 
 from ..engine import Cancelled, InvoluteError, Settings
-from ..engine.sequence import Frame, trace_sequence
+from ..engine.sequence import Frame
 
 if TYPE_CHECKING:
     from ..engine import Drawing
@@ -62,6 +62,8 @@ class SequenceJob:
 
     def run(self) -> None:
         """Trace all frames; never raises."""
+        from ..engine.sequence import trace_sequence  # brings in OpenCV
+
         try:
             drawings = trace_sequence(
                 self.frames, self._settings, progress=self._tick, **self._options

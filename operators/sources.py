@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -23,64 +22,25 @@ class Source:
     """One picture to trace.
 
     picture: a path, or an (H, W, 4) float32 array in sRGB, 0..1.
-    frame: the keyframe that it becomes; None = the current one.
     empty: name of the image Empty that shows it, or None.
     """
 
     name: str
     picture: str | np.ndarray
     page: int = 0
-    frame: int | None = None
     empty: str | None = None
 
 
-def from_files(paths: Sequence[str], *, as_keyframes: bool) -> list[Source]:
-    """Each page of each file; as keyframes the frame numbers come from the file names."""
+def from_files(paths: Sequence[str]) -> list[Source]:
+    """Each page of each file."""
     from ..engine.scan import page_count
-    from ..engine.sequence.frames import number_frames, number_pages
 
-    counts = {path: page_count(path) if _has_pages(path) else 1 for path in paths}
-    if as_keyframes:
-        if len(paths) == 1:
-            numbered = number_pages(paths[0], counts[paths[0]])
-        else:
-            numbered = number_frames(paths)
-        return [Source(Path(f.path).stem, f.path, f.page, f.frame) for f in numbered]
     sources = []
-    for path, count in counts.items():
-        stem = Path(path).stem
+    for path in paths:
+        count, stem = page_count(path) if _has_pages(path) else 1, Path(path).stem
         names = [stem] if count == 1 else [f"{stem} {page + 1}" for page in range(count)]
         sources += [Source(name, path, page) for page, name in enumerate(names)]
     return sources
-
-
-def from_empty(empty: bpy.types.Object) -> list[Source]:
-    """What an image Empty shows: one picture, or every file of the sequence that it plays.
-
-    Raises:
-        InvoluteError: the image has no pixels, or its sequence no files.
-    """
-    import bpy
-
-    image, user = empty.data, empty.image_user
-    if image.source != "SEQUENCE":
-        return [from_image(image, empty)]
-    first = Path(bpy.path.abspath(image.filepath, library=image.library))
-    files = sorted(str(f) for f in first.parent.glob(f"*{first.suffix}") if _alike(f, first))
-    if not files:
-        raise InvoluteError(f"There are no files of the sequence {image.name!r} in its folder.")
-    from ..engine.sequence.frames import number_frames
-
-    # Blender shows file number 1 at the start frame, counted on by the offset.
-    shift = user.frame_start - 1 - user.frame_offset
-    shown = range(user.frame_start, user.frame_start + max(1, user.frame_duration))
-    numbered = ((f.number + shift, f) for f in number_frames(files))
-    name = Path(image.name).stem or "Drawing"
-    return [
-        Source(name, f.path, frame=frame, empty=empty.name)
-        for frame, f in numbered
-        if frame in shown
-    ]
 
 
 def from_image(image: bpy.types.Image, empty: bpy.types.Object | None = None) -> Source:
@@ -94,8 +54,11 @@ def from_image(image: bpy.types.Image, empty: bpy.types.Object | None = None) ->
     stem = Path(image.name).stem if Path(image.name).suffix.lower() in SUFFIXES else image.name
     name = stem or "Drawing"
     shown_by = empty.name if empty else None
-    if image.source == "FILE" and not image.packed_file and not image.is_dirty:
-        path = bpy.path.abspath(image.filepath, library=image.library)
+    if image.source in {"FILE", "SEQUENCE"} and not image.packed_file and not image.is_dirty:
+        path = image.filepath
+        if empty and image.source == "SEQUENCE":  # what the Empty shows at this moment
+            path = image.filepath_from_user(image_user=empty.image_user)
+        path = bpy.path.abspath(path, library=image.library)
         if Path(path).is_file() and Path(path).suffix.lower() in SUFFIXES:
             return Source(name, path, empty=shown_by)
     width, height = image.size
@@ -121,11 +84,6 @@ def _pixels(image: bpy.types.Image) -> np.ndarray:
             color <= 0.0031308, color * 12.92, 1.055 * color ** (1 / 2.4) - 0.055
         )
     return np.ascontiguousarray(np.clip(pixels, 0.0, 1.0))
-
-
-def _alike(one: Path, other: Path) -> bool:
-    """Do two names differ in nothing but digits?"""
-    return re.sub(r"\d+", "#", one.name) == re.sub(r"\d+", "#", other.name)
 
 
 def _has_pages(path: str) -> bool:

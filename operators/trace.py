@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import bpy
-from bpy.props import BoolProperty, CollectionProperty, EnumProperty, StringProperty
+from bpy.props import CollectionProperty, EnumProperty, StringProperty
 
 from ..engine import InvoluteError
 from . import grease_pencil as gp
@@ -37,11 +37,6 @@ class INVOLUTE_OT_trace(TraceSettings, bpy.types.Operator):
         name="Image",
         description="Name of the image data-block to trace",
         options={"SKIP_SAVE"},
-    )
-    as_keyframes: BoolProperty(
-        name="As Keyframes",
-        description="Files or pages become keyframes of one object, numbered by their names",
-        default=False,
     )
     target: EnumProperty(
         name="Target",
@@ -117,7 +112,7 @@ class INVOLUTE_OT_trace(TraceSettings, bpy.types.Operator):
             paths = [self.filepath] if self.filepath else []
         if paths:
             paths = [bpy.path.abspath(path) for path in paths]
-            return sources.from_files(paths, as_keyframes=self.as_keyframes)
+            return sources.from_files(paths)
         if self.image:
             image = bpy.data.images.get(self.image)
             if image is None:
@@ -126,7 +121,7 @@ class INVOLUTE_OT_trace(TraceSettings, bpy.types.Operator):
         empty = context.active_object
         if not is_image_empty(empty):
             raise InvoluteError("Choose a picture file, or select an Empty that shows an image.")
-        return sources.from_empty(empty)
+        return [sources.from_image(empty.data, empty)]
 
     def _finish(self, context: bpy.types.Context, results: Sequence[worker.Result]) -> set[str]:
         done = [result for result in results if result.drawing is not None]
@@ -157,22 +152,20 @@ class INVOLUTE_OT_trace(TraceSettings, bpy.types.Operator):
 
     def _write(self, context: bpy.types.Context, done: Sequence[worker.Result]) -> None:
         frame = context.scene.frame_current
-        keyed = all(result.source.frame is not None for result in done)
         if self.target == "ACTIVE":
             obj = context.active_object
             if not gp.is_grease_pencil(obj) or not obj.data.is_editable:
                 raise InvoluteError("Make a Grease Pencil object of this file the active one.")
             for result in done:
-                put(obj, result, frame, alone=keyed)
+                put(obj, result, frame)
             return
         if context.mode != "OBJECT":
             bpy.ops.object.mode_set(mode="OBJECT")
         objects: list[bpy.types.Object] = []
         for result in done:
-            if not (keyed and objects):
-                objects.append(new_object(result.source.name))
-                context.collection.objects.link(objects[-1])
-            put(objects[-1], result, frame, alone=keyed)
+            objects.append(new_object(result.source.name))
+            context.collection.objects.link(objects[-1])
+            put(objects[-1], result, frame)
         for other in context.selected_objects:
             other.select_set(False)
         for obj in objects:
@@ -216,8 +209,8 @@ def new_object(name: str) -> bpy.types.Object:
     return bpy.data.objects.new(name, gp.collection().new(name))
 
 
-def put(obj: bpy.types.Object, result: worker.Result, frame: int, *, alone: bool) -> None:
-    """Write a traced drawing into an object, strokes and routing state; see `gp.write`."""
+def put(obj: bpy.types.Object, result: worker.Result, frame: int) -> None:
+    """Write a traced drawing into an object, strokes and routing state."""
     source, drawing = result.source, result.drawing
     empty = bpy.data.objects.get(source.empty) if source.empty else None
     placement: Placement = front_view(drawing.size)
@@ -225,9 +218,7 @@ def put(obj: bpy.types.Object, result: worker.Result, frame: int, *, alone: bool
         placement = on_empty(empty, drawing.size)
         obj.matrix_world = empty.matrix_world.copy()
     key = state.add(obj.data, drawing, placement, source.name)
-    if source.frame is not None:
-        frame = source.frame
-    gp.write(obj.data, frame, drawing, placement, key, alone=alone)
+    gp.write(obj.data, frame, drawing, placement, key)
 
 
 def _show_progress(context: bpy.types.Context, job: worker.Worker) -> None:

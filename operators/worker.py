@@ -60,35 +60,10 @@ class Worker:
 
     def run(self) -> None:
         """Trace all sources; never raises."""
-        if len(self.sources) > 1 and all(_is_frame(source) for source in self.sources):
-            self._trace_sequence()
-            return
         for source in self.sources:
             if self.cancelled:
                 return
             self.results.append(self._trace(source))
-
-    def _trace_sequence(self) -> None:
-        """In parallel processes, with strokes that stay themselves from frame to frame."""
-        from ..engine.sequence import Frame, trace_sequence
-
-        frames = [Frame(k, s.frame, s.picture, s.page) for k, s in enumerate(self.sources)]
-        self.stage = f"Tracing {len(frames)} frames"
-        try:
-            made = trace_sequence(frames, self.settings, progress=self._frame_is_done)
-            for source, (_, drawing) in zip(self.sources, made, strict=True):
-                failed = isinstance(drawing, InvoluteError)
-                result = Result(source, None, str(drawing)) if failed else Result(source, drawing)
-                self.results.append(result)
-        except Cancelled:
-            return
-        except Exception as problem:
-            self.results = [Result(self.sources[0], None, _unexpected(problem))]
-
-    def _frame_is_done(self, frame: object, outcome: object) -> None:
-        if self.cancelled:
-            raise Cancelled
-        self.fraction = min(1.0, self.fraction + 1 / len(self.sources))
 
     def _trace(self, source: Source) -> Result:
         from ..engine import vectorize
@@ -108,10 +83,6 @@ class Worker:
             raise Cancelled
         self.stage = STAGES.get(stage, stage)
         self.fraction = (len(self.results) + fraction) / len(self.sources)
-
-
-def _is_frame(source: Source) -> bool:
-    return source.frame is not None and isinstance(source.picture, str)
 
 
 def _unexpected(problem: Exception) -> str:
