@@ -15,7 +15,7 @@ import numpy as np
 from ..values import Array
 
 BLOCK = 64  # px; tiles begin and end at multiples of it (and of the network's stride)
-CONTEXT = 80  # px that a network sees beyond a tile, so that the tile's size makes no difference
+CONTEXT = 96  # px that a network sees beyond a tile, so that the tile's size makes no difference
 LARGEST = 1024  # px; longest side of a window, which bounds the memory
 _CELL = 16  # px; ink is looked for in cells of this size
 _INK = 0.04  # mean of 3x3 px above which paper counts as inked
