@@ -22,6 +22,7 @@ Source = str | PathLike[str] | np.ndarray
 MIN_SIDE, MAX_SIDE = 16, 20_000  # px
 _PEN_RANGE = (1.5, 8.0)  # working px; pens within stay as they are
 _PEN_TARGET = (2.5, 6.0)  # what thinner and thicker ones are brought to
+_PLENTY, _ENOUGH = 4e6, 4.0  # px of a page above which pens as wide as this will do
 _MOST_PIXELS = 64e6  # of a working page: bounds memory and time at 20,000 px
 _LEAST_SIDE = 256  # px; no page is worked smaller than this because of a fat pen
 _DEFAULT_PEN = 3.0  # px; of a page without a line
@@ -187,20 +188,22 @@ def _bytes(picture: Array) -> Array:
 
 def measure_pen(ink: Array) -> float:
     """Typical full width of the lines in an ink map, px; 0 when it has none."""
-    return _median([_line_widths(ink)])
+    return _typical([_line_widths(ink)])
 
 
 def _measured_pen(gray: Array, ink: Array | None) -> float:
     """The pen where the page has most ink; `ink` is the flattened page when it is small enough."""
     if ink is not None:
-        return _median([_line_widths(ink[window]) for window in _inkiest_windows(-ink)])
+        return _typical([_line_widths(ink[window]) for window in _inkiest_windows(-ink)])
     windows = _inkiest_windows(gray)
-    return _median([_line_widths(flatten_paper(_unit(gray[window]))) for window in windows])
+    return _typical([_line_widths(flatten_paper(_unit(gray[window]))) for window in windows])
 
 
-def _median(widths: list[Array]) -> float:
-    every = np.concatenate(widths) if widths else np.zeros(0)
-    return float(np.median(every)) if every.size else 0.0
+def _typical(widths: list[Array]) -> float:
+    """The mean of the middle half: as robust as a median, but not confined to whole pixels."""
+    every = np.sort(np.concatenate([np.zeros(0), *widths]))
+    middle = every[len(every) // 4 : -(-3 * len(every) // 4)]
+    return float(middle.mean()) if middle.size else 0.0
 
 
 def _inkiest_windows(gray: Array) -> list[tuple[slice, slice]]:
@@ -231,7 +234,7 @@ def _line_widths(ink: Array) -> Array:
     extent = np.hypot(stats[:, cv2.CC_STAT_WIDTH], stats[:, cv2.CC_STAT_HEIGHT])
     widths, owner = distance[middle], label[middle]
     widths = widths[extent[owner] > np.maximum(12.0, 6.0 * widths)]
-    return np.sqrt(np.maximum(widths**2 - 3.0, 1.0))  # less what the blur has added
+    return np.sqrt(np.maximum(widths**2 - 3.0, 1.0))  # less what blur and pixels have added
 
 
 def _working_scale(pen: float, width: int, height: int) -> float:
@@ -241,6 +244,9 @@ def _working_scale(pen: float, width: int, height: int) -> float:
         scale = max(1.0, min(pen / _PEN_TARGET[1], max(width, height) / _LEAST_SIDE))
     elif pen < _PEN_RANGE[0]:
         scale = max(0.5, pen / _PEN_TARGET[0])
+    pixels = width * height / scale**2
+    if pixels > _PLENTY and pen / scale > _ENOUGH:
+        scale *= min(pen / scale / _ENOUGH, (pixels / _PLENTY) ** 0.5)
     return max(scale, (width * height / _MOST_PIXELS) ** 0.5)
 
 

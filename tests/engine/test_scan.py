@@ -286,6 +286,13 @@ def test_pens_are_2_to_8_px_where_the_work_is_done(pen):
     assert scan.pen_width * scan.scale == pytest.approx(pen, rel=0.15, abs=0.5)
 
 
+def test_large_pages_with_fat_pens_are_worked_smaller():
+    picture = cv2.resize(page(800, 600, 2), None, fx=5, fy=5, interpolation=cv2.INTER_CUBIC)
+    scan = read_scan(picture, SETTINGS)
+    assert scan.ink.size < 5e6
+    assert scan.pen_width > 3.5
+
+
 def test_places_scale_back_to_input_pixels():
     spots = [(1450, 200), (200, 1050)]
     crosses = [[[x - 60, y], [x + 60, y]] for x, y in spots]
