@@ -161,7 +161,7 @@ def test_batches_join_pages_without_mixing_them() -> None:
 def test_what_the_engine_runs_is_what_was_trained(drawings: Path, tmp_path: Path) -> None:
     arguments = Namespace(
         data=drawings, out=tmp_path, steps=3, junctions=40, rate=1e-3, loss="exact", width=64,
-        every=2, minutes=10.0, seed=1, device="cpu", traced=[], traced_held_out=None,
+        every=2, pages=3, minutes=10.0, seed=1, device="cpu", traced=[], traced_held_out=None,
         traced_share=0.0, start=None,
     )  # fmt: skip
     train(arguments)

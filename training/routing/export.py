@@ -33,7 +33,7 @@ def main() -> None:
     args = parser.parse_args()
     net = load(args.checkpoint)
     library = Library.load(args.data, held_out=True)
-    held_out = validation(library, args.traced, pages=150, seed=11)
+    held_out = validation(library, args.traced, pages=80, seed=11)
     calibration = calibrate(net, list(held_out.values()))
     args.out.mkdir(parents=True, exist_ok=True)
     (args.out / "routing.json").write_text(json.dumps(calibration, indent=1) + "\n")

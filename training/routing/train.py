@@ -34,6 +34,7 @@ def main() -> None:
     parser.add_argument("--loss", choices=("exact", "sinkhorn"), default="exact")
     parser.add_argument("--width", type=int, default=64)
     parser.add_argument("--every", type=int, default=500, help="steps between evaluations")
+    parser.add_argument("--pages", type=int, default=40, help="pages of an evaluation")
     parser.add_argument("--minutes", type=float, default=1e9, help="stop after so long")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--device", default="cpu", help="cpu, cuda or mps")
@@ -64,7 +65,7 @@ def train(args: argparse.Namespace) -> None:
     traced = [page for file in args.traced for page in load(file)]
     library = Library.load(args.data, held_out=False)
     bank = Bank(library, args.seed * 1000 + first, traced, args.traced_share)
-    held_out = validation(Library.load(args.data, held_out=True), args.traced_held_out)
+    held_out = validation(Library.load(args.data, True), args.traced_held_out, args.pages)
     loss_of = getattr(likelihood, args.loss)
     started, running, step, done = time.monotonic(), [], first, 0.0
     while done < 1:
