@@ -1,7 +1,7 @@
 """Tiles: the inked part of a page, cut into rectangles that a network can look at one by one.
 
 White paper is never looked at; memory is bounded by the tile. Windows overlap: a network sees
-CONTEXT px beyond its tile, more than can change its answer by 1e-4, so there are no seams to hide.
+CONTEXT px beyond its tile, as far as its answer depends on, so there are no seams to hide.
 """
 
 from __future__ import annotations
@@ -14,12 +14,13 @@ import numpy as np
 
 from ..values import Array
 
-BLOCK = 64  # px; tiles begin and end at multiples of it (and of the network's stride)
+BLOCK = 32  # px; tiles begin and end at multiples of it (and of the network's stride)
 CONTEXT = 96  # px that a network sees beyond a tile, so that the tile's size makes no difference
 LARGEST = 1024  # px; longest side of a window, which bounds the memory
+_PAPER_CONTEXT = 64  # px, where it is blank
 _CELL = 16  # px; ink is looked for in cells of this size
 _INK = 0.04  # mean of 3x3 px above which paper counts as inked
-_OVERHEAD = 0.3  # blocks; what the call of a network costs beside its pixels
+_OVERHEAD = 1.0  # blocks; what the call of a network costs beside its pixels
 
 
 @dataclass(frozen=True)
@@ -35,10 +36,25 @@ class Tile:
     def area(self) -> int:
         return (self.bottom - self.top) * (self.right - self.left)
 
-    def window(self, height: int, width: int) -> tuple[slice, slice]:
-        """Rows and columns of the tile and its context, on a page of the given size."""
-        rows = slice(max(0, self.top - CONTEXT), min(height, self.bottom + CONTEXT))
-        return rows, slice(max(0, self.left - CONTEXT), min(width, self.right + CONTEXT))
+    def window(self, active: Array, height: int, width: int) -> tuple[slice, slice]:
+        """Rows and columns of the tile and its context, on a page of the given size.
+
+        Where all that is white paper, less of it will do.
+        """
+        top, left, bottom, right = (
+            edge // BLOCK for edge in (self.top, self.left, self.bottom, self.right)
+        )
+        reach = CONTEXT // BLOCK
+        rows = slice(max(0, top - reach), bottom + reach)
+        columns = slice(max(0, left - reach), right + reach)
+        above = CONTEXT if active[rows.start : top, columns].any() else _PAPER_CONTEXT
+        below = CONTEXT if active[bottom : rows.stop, columns].any() else _PAPER_CONTEXT
+        before = CONTEXT if active[rows, columns.start : left].any() else _PAPER_CONTEXT
+        after = CONTEXT if active[rows, right : columns.stop].any() else _PAPER_CONTEXT
+        return (
+            slice(max(0, self.top - above), min(height, self.bottom + below)),
+            slice(max(0, self.left - before), min(width, self.right + after)),
+        )
 
 
 def plan(active: Array) -> list[Tile]:
@@ -168,7 +184,7 @@ def look(
     done = 0
     for tile in tiles:
         tick(done / total)
-        rows, columns = tile.window(*ink.shape)
+        rows, columns = tile.window(active, *ink.shape)
         answers = infer(np.ascontiguousarray(ink[rows, columns]))
         inside = ink[tile.top : tile.bottom, tile.left : tile.right].shape
         y, x = tile.top - rows.start, tile.left - columns.start

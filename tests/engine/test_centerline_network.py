@@ -49,10 +49,11 @@ def inked_pages(draw) -> np.ndarray:
 @settings(max_examples=40, deadline=None)
 @given(inked_pages())
 def test_tiles_cover_all_ink_once_and_leave_no_seam(ink):
-    plan = tiles.plan(tiles.active_blocks(ink))
+    active = tiles.active_blocks(ink)
+    plan = tiles.plan(active)
     seen = np.zeros(ink.shape, np.uint8)
     for tile in plan:
-        rows, columns = tile.window(*ink.shape)
+        rows, columns = tile.window(active, *ink.shape)
         assert max(rows.stop - rows.start, columns.stop - columns.start) <= tiles.LARGEST
         seen[tile.top : tile.bottom, tile.left : tile.right] += 1
     assert seen.max(initial=0) <= 1
