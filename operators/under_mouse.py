@@ -58,11 +58,11 @@ def halves_under(context: bpy.types.Context, mouse: Mouse) -> tuple[Shown, dict[
     return None
 
 
-def near_part(drawing: Drawing, half: int, reach: float = REACH) -> np.ndarray:
-    """(N, 2) px: a half-branch from its junction outward, no farther than the branch's middle."""
+def near_part(drawing: Drawing, half: int, reach: float = REACH, share: float = 0.5) -> np.ndarray:
+    """(N, 2) px: a half-branch from its junction outward, no farther than a share of the branch."""
     points = drawing.graph.half_branch(half).astype(np.float64)
     lengths = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
-    end = min(reach, 0.5 * lengths[-1])
+    end = min(reach, share * lengths[-1])
     inside = lengths < end
     last = [np.interp(end, lengths, points[:, k]) for k in (0, 1)]
     return np.concatenate([points[inside], [last]])

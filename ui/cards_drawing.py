@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 _BACK = (0.11, 0.11, 0.12, 0.92)
 _POINTED = (0.20, 0.27, 0.38, 0.96)
 _EDGE = (0.35, 0.35, 0.36, 1.0)
+_IN_FORCE = (0.35, 0.62, 1.0, 1.0)
 _TEXT = (0.92, 0.92, 0.92, 1.0)
 _FONT = 0
 
@@ -96,7 +97,7 @@ def _card(card: Card, pointed: bool, current: bool, scale: float) -> None:
     shader.uniform_float("color", _POINTED if pointed else _BACK)
     batch_for_shader(shader, "TRI_FAN", {"pos": corners}).draw(shader)
     outline = np.concatenate([corners, corners[:1]])
-    _lines([outline], _TEXT if current else _EDGE, (2.0 if current else 1.0) * scale)
+    _lines([outline], _IN_FORCE if current else _EDGE, (2.0 if current else 1.0) * scale)
 
 
 def _badge(letter: str, place: np.ndarray, scale: float) -> None:

@@ -7,7 +7,7 @@ nothing and are made anew only when the routing or the colours change.
 from __future__ import annotations
 
 from collections import OrderedDict
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
 import bpy
@@ -18,14 +18,15 @@ from gpu_extras.batch import batch_for_shader
 from ..engine import InvoluteError
 from ..operators.view_state import Shown, shown_in, view_of
 from . import cards_drawing
-from .overlay_geometry import Route, rings, routes
+from .colors import Color
+from .overlay_geometry import rings, routes
 from .preferences import preferences_of
 
 if TYPE_CHECKING:
     from ..engine import Drawing
 
 _MAX_BATCHES = 16
-_batches: OrderedDict[tuple, gpu.types.GPUBatch] = OrderedDict()
+_batches: OrderedDict[tuple, object] = OrderedDict()
 _handles: list[object] = []
 
 
@@ -105,18 +106,8 @@ def _draw_rings(context: bpy.types.Context, shown: Shown) -> None:
         for name in ("color_sure", "color_doubtful", "color_locked")
     )
     key = (shown.trace.stamp, tuple(shown.trace.placement.as_list()), scale, preferences.ring_size)
-    batch = _batches.get(key)
     shader = gpu.shader.from_builtin("POLYLINE_FLAT_COLOR")
-    if batch is None:
-        radius = preferences.ring_size * pen_width(shown.trace.drawing)
-        shape = rings(shown.table, radius, scale)
-        places = shown.trace.placement.to_object(shape.points)
-        batch = batch_for_shader(
-            shader, "LINES", {"pos": places, "color": shape.colors}, indices=shape.edges
-        )
-        _batches[key] = batch
-        while len(_batches) > _MAX_BATCHES:
-            _batches.popitem(last=False)
+    batch = _kept(key, lambda: _ring_batch(shader, shown, scale, preferences.ring_size))
     dark = gpu.shader.from_builtin("POLYLINE_UNIFORM_COLOR")
     _set_up(context, dark, 4.0)  # an edge, so that rings show on paper and on ink alike
     dark.uniform_float("color", (0.0, 0.0, 0.0, 0.35))
@@ -126,22 +117,51 @@ def _draw_rings(context: bpy.types.Context, shown: Shown) -> None:
     _tidy_up()
 
 
+def _ring_batch(
+    shader: gpu.types.GPUShader, shown: Shown, scale: tuple[Color, Color, Color], size: float
+) -> gpu.types.GPUBatch:
+    shape = rings(shown.table, size * pen_width(shown.trace.drawing), scale)
+    places = shown.trace.placement.to_object(shape.points)
+    return batch_for_shader(
+        shader, "LINES", {"pos": places, "color": shape.colors}, indices=shape.edges
+    )
+
+
 def _draw_routes(context: bpy.types.Context, shown: Shown) -> None:
     """The current junction's lines in the colours of their strokes; a preview is drawn wider."""
     junction, preview = shown.junction, shown.view.preview
     previewing = 0 <= preview < len(junction.alternatives)
     pairs = junction.alternatives[preview].pairs if previewing else junction.pairs
     shader = gpu.shader.from_builtin("POLYLINE_UNIFORM_COLOR")
-    for route in routes(shown.trace.drawing, junction, pairs):
-        _set_up(context, shader, 7.0 if previewing else 4.5)
-        _draw_route(shader, shown, route)
+    _set_up(context, shader, 7.0 if previewing else 4.5)
+    key = (shown.trace.stamp, tuple(shown.trace.placement.as_list()), junction.index, pairs)
+    for color, batch in _kept(key, lambda: _route_batches(shader, shown, pairs)):
+        shader.uniform_float("color", color)
+        batch.draw(shader)
     _tidy_up()
 
 
-def _draw_route(shader: gpu.types.GPUShader, shown: Shown, route: Route) -> None:
-    shader.uniform_float("color", (*route.color, 0.95 if route.joined else 0.6))
-    places = shown.trace.placement.to_object(route.points)
-    batch_for_shader(shader, "LINE_STRIP", {"pos": places}).draw(shader)
+def _route_batches(
+    shader: gpu.types.GPUShader, shown: Shown, pairs: tuple[tuple[int, int], ...]
+) -> list[tuple[tuple[float, ...], gpu.types.GPUBatch]]:
+    return [
+        (
+            (*route.color, 0.95 if route.joined else 0.6),
+            batch_for_shader(
+                shader, "LINE_STRIP", {"pos": shown.trace.placement.to_object(route.points)}
+            ),
+        )
+        for route in routes(shown.trace.drawing, shown.junction, pairs)
+    ]
+
+
+def _kept(key: tuple, make: Callable[[], object]) -> object:
+    """What was made for this key before, or is made now."""
+    if key not in _batches:
+        _batches[key] = make()
+        while len(_batches) > _MAX_BATCHES:
+            _batches.popitem(last=False)
+    return _batches[key]
 
 
 def _set_up(context: bpy.types.Context, shader: gpu.types.GPUShader, width: float) -> None:

@@ -68,18 +68,22 @@ def routes(drawing: Drawing, junction: Junction, pairs: Iterable[tuple[int, int]
     left = set(junction.half_branches)
     found = []
     for number, (a, b) in enumerate(sorted(pairs)):
-        line = np.concatenate([near_part(drawing, a)[::-1], near_part(drawing, b)[1:]])
+        line = np.concatenate([_outward(drawing, a)[::-1], _outward(drawing, b)[1:]])
         found.append(Route(line.astype(np.float32), STROKES[number % len(STROKES)], True))
         left -= {a, b}
     found += [
-        Route(near_part(drawing, half).astype(np.float32), LOOSE, False) for half in sorted(left)
+        Route(_outward(drawing, half).astype(np.float32), LOOSE, False) for half in sorted(left)
     ]
     return found
+
+
+def _outward(drawing: Drawing, half: int) -> Array:
+    return near_part(drawing, half, share=1.0)
 
 
 def labels(drawing: Drawing, junction: Junction) -> list[tuple[str, tuple[float, float]]]:
     """The letters of a junction's half-branches and where they stand, px."""
     return [
-        (letter, tuple(near_part(drawing, half, _LABEL_AT)[-1].tolist()))
+        (letter, tuple(near_part(drawing, half, _LABEL_AT, 0.8)[-1].tolist()))
         for half, letter in letters(drawing, junction).items()
     ]
