@@ -8,10 +8,11 @@ import numpy as np
 
 from ..values import Stroke
 from .bezier import fit
+from .corners import find_corners, sharpen
 from .lines import Lines, Pieces
 from .page import SAMPLES_PER_PEN, Page
 from .simplify import simplify
-from .smooth import corners, margin, smooth
+from .smooth import margin, smooth
 from .walk import Walk
 
 Array = np.ndarray
@@ -30,8 +31,9 @@ def build(page: Page, walks: Sequence[Walk]) -> list[Stroke]:
         return []
     lines = Lines.of(page, walks, margin(page.settings.smoothing))
     raw = page.points[lines.sample]
-    corner = corners(raw, lines)
-    points = smooth(raw, lines, corner, page.settings.smoothing)
+    corner = find_corners(raw, lines)
+    points = sharpen(raw, lines, corner, page.pen)
+    points = smooth(points, lines, corner, page.settings.smoothing)
     widths, opacity = _ink(page, lines)
     kept, handles = _few(page, lines, corner, points, widths, opacity)
 

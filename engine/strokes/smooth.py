@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from .corners import MARGIN as CORNER_MARGIN
 from .lines import Lines, Pieces
 from .page import SAMPLES_PER_PEN
 
@@ -17,53 +18,18 @@ WIDEST = 2.5  # pen widths; sigma at smoothing 1
 _JOINT = 0.75  # pen widths; least sigma where a stroke runs through a junction
 _JOINT_REACH = 2.0  # pen widths from the junction over which that holds
 _PULL = 4.0  # pen widths around a junction that follow it back to its place
-_CORNER_ARM = 1.5  # pen widths of line on both sides of a corner that are looked at
-_CORNER = np.radians(38.0)  # least turn of a corner over the whole arm
-_SUDDEN = 0.7  # share of that turn that must be there over half of the arm: 0.5 on a circle
 
 
 def margin(smoothing: float) -> int:
     """How many samples away a sample can have an influence."""
-    return _radius(smoothing * WIDEST) + _radius(_JOINT) + round(4 * _CORNER_ARM * SAMPLES_PER_PEN)
-
-
-def corners(points: Array, lines: Lines) -> Array:
-    """(N,) bool: where the line turns suddenly, and the first and last sample of each run.
-
-    A corner turns as much over a short stretch as over a long one; a tight curve doesn't.
-    """
-    place = np.arange(len(points))
-    arm = round(_CORNER_ARM * SAMPLES_PER_PEN)
-    wide, near = (_turn(points, lines, a) for a in (arm, arm // 2))
-    sharp = (wide > _CORNER) & (near > _SUDDEN * wide)
-    strength = np.where(sharp, wide + near, 0.0)
-    best = strength > 0
-    for k in range(1, arm + 1):
-        best &= strength >= strength[np.minimum(place + k, lines.last)]
-        best &= strength > strength[np.maximum(place - k, lines.first)] * (place - k >= lines.first)
-    # A corner right beside a junction is the junction: the raster has moved one of them.
-    for k in range(arm // 2, 0, -1):
-        for other in (np.minimum(place + k, lines.last), np.maximum(place - k, lines.first)):
-            moved = best & lines.joint[other] & ~lines.joint
-            best[other[moved]], best[moved] = True, False
-    return best | (place == lines.first) | (place == lines.last)
-
-
-def _turn(points: Array, lines: Lines, arm: int) -> Array:
-    """(N,) the angle between the chords over `arm` samples before and after; 0 near the ends."""
-    place = np.arange(len(points))
-    before, after = np.maximum(place - arm, lines.first), np.minimum(place + arm, lines.last)
-    a, b = points - points[before], points[after] - points
-    turn = np.abs(np.arctan2(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0], (a * b).sum(1)))
-    short = np.minimum(place - before, after - place) < arm // 2
-    return np.where(short, 0.0, turn)
+    return _radius(smoothing * WIDEST) + _radius(_JOINT) + CORNER_MARGIN
 
 
 def smooth(points: Array, lines: Lines, corner: Array, smoothing: float) -> Array:
     """The smoothed samples, (N, 2).
 
     Args:
-        points: (N, 2) in px; corner: (N,) bool from `corners`; smoothing: 0 to 1.
+        points: (N, 2) in px; corner: (N,) bool from `find_corners`; smoothing: 0 to 1.
     """
     place = np.arange(len(points))
     sigma = smoothing * WIDEST

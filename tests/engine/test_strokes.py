@@ -165,6 +165,30 @@ def test_a_corner_stays_sharp() -> None:
         assert len(stroke.points) == 3
 
 
+@pytest.mark.parametrize("angle", [50.0, 90.0, 120.0])
+def test_a_corner_that_the_centerline_rounded_is_sharp_again(angle: float) -> None:
+    way = np.radians(180 - angle)
+    legs = np.array([[-60.0, 0], [0, 0], [60 * np.cos(way), 60 * np.sin(way)]]) + 100
+    t = np.linspace(0, 2, 241)
+    dense = np.stack([np.interp(t, [0, 1, 2], legs[:, c]) for c in (0, 1)], 1)
+    kernel = np.hanning(7) / np.hanning(7).sum()
+    rounded = dense.copy()
+    for c in (0, 1):
+        rounded[3:-3, c] = np.convolve(dense[:, c], kernel, mode="valid")
+    (stroke,) = _one([rounded], Settings())
+    assert np.hypot(*(rounded - 100).T).min() > 0.2
+    assert np.hypot(*(stroke.points - 100).T).min() < 0.1
+    assert len(stroke.points) == 3
+
+
+def test_a_round_corner_stays_round() -> None:
+    t = np.linspace(0, np.pi / 2, 30)
+    arc = np.stack([100 + 8 * np.sin(t), 28 - 8 * np.cos(t)], 1)
+    (stroke,) = _one([np.vstack([[[20.0, 20]], arc, [[108.0, 120]]])], Settings(), width=3.0)
+    away = shapely.distance(shapely.LineString(arc), shapely.LineString([[108, 20], [108.1, 20]]))
+    assert np.hypot(*(stroke.points - [108, 20]).T).min() > 0.8 * away
+
+
 def test_a_corner_at_a_junction_stays_sharp() -> None:
     corner = np.array([[20.0, 100], [100, 100], [100, 180]])
     graph, _ = graph_from_strokes([corner, np.array([[100.0, 100], [170, 40]])], widths=[4.0, 4.0])
