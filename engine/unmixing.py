@@ -25,7 +25,7 @@ _MEANT = {
     "purple": (130, 60, 180),
     "pink": (240, 110, 180),
 }
-_COLORED = 0.3  # how far a density is from grey, relative to its size, in coloured ink
+COLORED = 0.3  # how far a density is from grey, relative to its size, in coloured ink
 _FAINT = 0.06  # mean density below which a pixel is paper
 _NEAR = np.radians(60)  # an ink farther than this round the colour circle is not the one meant
 _BINS = 36
@@ -58,7 +58,7 @@ def _kept_beside(name: str, scan: Scan) -> Array:
     rows, columns = np.nonzero(scan.ink > 0.05)
     density = _density(scan)[rows, columns]
     chroma, hue = hue_of(density)
-    colored = (chroma > _COLORED) & (density.mean(axis=1) > _FAINT)
+    colored = (chroma > COLORED) & (density.mean(axis=1) > _FAINT)
     meant = [k for k, ink in enumerate(_inks(hue[colored])) if _is_meant(ink, name)]
     if not meant:
         return kept

@@ -14,10 +14,12 @@ import cv2
 import numpy as np
 
 from ..drawing import Drawing
+from ..unmixing import COLORED, hue_of
 from ..values import Array, Stroke
 from .matching import SAMPLES, Matches, match_strokes, sample_strokes
 
-_SAME_INK = 25.0  # CIE Lab distance below which two frames mean one ink
+_SAME_HUE = np.radians(35)  # a coloured ink may look darker in one frame, hardly of another hue
+_SAME_GRAY = 60.0  # of 255, for black, gray and what is nearly that
 
 Color = tuple[int, int, int]
 
@@ -35,7 +37,7 @@ class Follower:
 
     def __call__(self, drawing: Drawing) -> Drawing:
         """The same drawing; strokes reordered, reversed, recoloured, none changed in shape."""
-        strokes = _with_known_inks(drawing.strokes, self.inks)
+        strokes = with_known_inks(drawing.strokes, self.inks)
         if strokes:
             strokes = follow(self.strokes, strokes)
             # Ink by ink, as they lie in layers.
@@ -151,20 +153,23 @@ def _against_the_grain(
     return vote.reshape(len(newcomers), -1).sum(axis=1) < 0
 
 
-def _with_known_inks(strokes: Sequence[Stroke], inks: list[Color]) -> tuple[Stroke, ...]:
-    """Strokes whose colours are among `inks`, which grows by those not seen before."""
+def with_known_inks(strokes: Sequence[Stroke], inks: list[Color]) -> tuple[Stroke, ...]:
+    """Strokes in the colours that their inks had before; `inks` grows by those not seen yet."""
     known: dict[Color, Color] = {}
     for color in dict.fromkeys(s.color for s in strokes):
-        distances = [float(np.linalg.norm(_lab(color) - _lab(ink))) for ink in inks]
-        if distances and min(distances) < _SAME_INK:
-            known[color] = inks[int(np.argmin(distances))]
-        else:
-            inks.append(color)
-            known[color] = color
+        likely = min(inks, key=lambda ink: _ink_difference(color, ink), default=color)
+        known[color] = likely if _ink_difference(color, likely) < 1.0 else color
+        if known[color] not in inks:
+            inks.append(known[color])
     return tuple(
         s if known[s.color] == s.color else replace(s, color=known[s.color]) for s in strokes
     )
 
 
-def _lab(color: Color) -> Array:
-    return cv2.cvtColor(np.float32([[color]]) / 255, cv2.COLOR_RGB2Lab)[0, 0]
+def _ink_difference(one: Color, other: Color) -> float:
+    """Below 1 for two shades of one ink."""
+    colors = np.array([one, other], float)
+    chroma, hue = hue_of(-np.log((colors + 8.0) / 263.0))
+    if (chroma > COLORED).all():
+        return float(abs(np.angle(np.exp(1j * (hue[0] - hue[1])))) / _SAME_HUE)
+    return float(np.abs(colors[0] - colors[1]).max() / _SAME_GRAY)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from involute.engine.sequence.follow import follow, reverse
+from involute.engine.sequence.follow import follow, reverse, with_known_inks
 from involute.engine.sequence.matching import match_strokes
 from involute.engine.values import Stroke
 
@@ -125,3 +125,20 @@ def test_reversing_twice_changes_nothing():
     twice = reverse(reverse(one))
     for name in ("points", "widths", "branches", "handles"):
         assert (getattr(twice, name) == getattr(one, name)).all()
+
+
+@pytest.mark.parametrize(
+    ("shade", "ink"),
+    [
+        ((1, 1, 57), (0, 0, 178)),
+        ((30, 30, 34), (0, 0, 0)),
+        ((160, 160, 160), None),
+        ((150, 10, 10), (200, 20, 20)),
+        ((20, 120, 30), None),
+    ],
+)
+def test_a_shade_of_a_known_ink_is_that_ink(shade, ink):
+    inks = [(0, 0, 0), (0, 0, 178), (200, 20, 20)]
+    line = stroke([[0, 90], [90, 90]], color=shade)
+    assert with_known_inks([line], inks)[0].color == (ink or shade)
+    assert inks[3:] == ([] if ink else [shade])
