@@ -17,7 +17,9 @@ from .walk import Walk
 
 Array = np.ndarray
 
-_WIDTH_BLUR = 1.0  # pen widths; sigma of the smoothing of widths and opacity along a stroke
+_WIDTH_BLUR = 1.0  # pen widths; sigma of the smoothing of widths along a stroke
+_OPACITY_BLUR = 3.0  # pen widths; the same of opacity, which is noisier
+_FAINTEST = 0.1  # opacity of a stroke at least, so that nothing is there that can't be seen
 _WIDTH_STEP = 0.12  # change of width, in pen widths, that is worth a point of its own
 _OPACITY_STEP = 0.12
 
@@ -81,11 +83,12 @@ def _few(
 def _ink(page: Page, lines: Lines) -> tuple[Array, Array]:
     """Widths and opacity along the strokes, smoothed, and carried across junctions."""
     trust = page.trust[lines.sample] + 1e-6
-    values = np.column_stack([page.widths[lines.sample], page.opacity[lines.sample]])
-    weighted = np.column_stack([values * trust[:, None], trust])
-    sigma = _WIDTH_BLUR * SAMPLES_PER_PEN
     runs = np.unique(lines.first)
-    pieces = Pieces(runs, lines.last[runs], round(3 * sigma))
-    pieces.put(pieces.blur(pieces.alone(weighted), sigma), weighted)
-    values = weighted[:, :2] / weighted[:, 2:]
-    return values[:, 0], np.clip(values[:, 1], 0.0, 1.0)
+    found = []
+    for values, blur in ((page.widths, _WIDTH_BLUR), (page.opacity, _OPACITY_BLUR)):
+        sigma = blur * SAMPLES_PER_PEN
+        pieces = Pieces(runs, lines.last[runs], round(3 * sigma))
+        weighted = np.column_stack([values[lines.sample] * trust, trust])
+        pieces.put(pieces.blur(pieces.alone(weighted), sigma), weighted)
+        found.append(weighted[:, 0] / weighted[:, 1])
+    return found[0], np.clip(found[1], _FAINTEST, 1.0)

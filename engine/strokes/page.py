@@ -18,7 +18,8 @@ Array = np.ndarray
 SAMPLES_PER_PEN = 4  # samples along a line of one pen width
 _BLOB = 1.0  # pen widths around a junction where other lines spoil the width; twice that to be sure
 _UNKNOWN = 4.0  # px
-_FULL_INK = 80  # percentile of strength that counts as opaque
+_FULL_INK = 60  # percentile of ink that counts as opaque
+_SOFT = 0.8  # px; how far a scanner spreads the ink of a line
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,18 +84,28 @@ class Page:
             np.stack([along, length[of_sample] - along], 1),
             np.inf,
         ).min(1, initial=np.inf)
-        strength = np.ones(len(points)) if graph.strength is None else graph.strength
-        full = max(float(np.percentile(strength, _FULL_INK)), 1e-3) if len(strength) else 1.0
+        opacity = (
+            np.ones(len(points)) if graph.strength is None else _opacity(graph.strength, widths)
+        )
         free = (graph.degrees[graph.ends] <= 1).all(1)
         return cls(
             pen=pen,
             points=at(points),
             offsets=offsets,
             widths=at(widths)[:, 0],
-            opacity=np.clip(at(strength)[:, 0] / full, 0.0, 1.0),
+            opacity=at(opacity)[:, 0],
             trust=np.clip(near / (_BLOB * pen) - 1.0, 0.0, 1.0),
             length=length,
             lonely=free | (graph.degrees[graph.ends] == 2).all(1),
             inks=Inks.of(graph, length, pen) if settings.inks else Inks.black(graph.branch_count),
             settings=settings,
         )
+
+
+def _opacity(strength: Array, widths: Array) -> Array:
+    """(P,) how dense the ink is, relative to the page: thin lines are not faint because of that."""
+    half = np.maximum(widths, 0.5) / (2**1.5 * _SOFT)
+    peak = np.sqrt(1 - np.exp(-half * half * 4 / np.pi))  # erf, to one percent
+    ink = np.asarray(strength, np.float64) / peak
+    full = max(float(np.percentile(ink, _FULL_INK)), 1e-3) if len(ink) else 1.0
+    return np.clip(ink / full, 0.0, 1.0)

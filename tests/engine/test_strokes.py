@@ -185,8 +185,7 @@ def test_a_round_corner_stays_round() -> None:
     t = np.linspace(0, np.pi / 2, 30)
     arc = np.stack([100 + 8 * np.sin(t), 28 - 8 * np.cos(t)], 1)
     (stroke,) = _one([np.vstack([[[20.0, 20]], arc, [[108.0, 120]]])], Settings(), width=3.0)
-    away = shapely.distance(shapely.LineString(arc), shapely.LineString([[108, 20], [108.1, 20]]))
-    assert np.hypot(*(stroke.points - [108, 20]).T).min() > 0.8 * away
+    assert np.hypot(*(stroke.points - [108, 20]).T).min() > 2.5  # 3.3 px on the arc itself
 
 
 def test_a_corner_at_a_junction_stays_sharp() -> None:
