@@ -44,7 +44,7 @@ CENTERLINE_LOSSES: dict[str, Callable[[Tensor, Tensor], Tensor]] = {
 
 
 def total_loss(raw: Tensor, truth: Tensor, centerline: str = "bce_dice") -> dict[str, Tensor]:
-    """Loss of each head and "total"; raw and truth: (N, 5, H, W), channels as in model.HEADS.
+    """Loss of each head, weighted (the centerline leads), and "total"; raw and truth: (N, 5, H, W), channels as in model.HEADS.
 
     truth's half-width is a share of MAX_HALF_WIDTH; it counts on the ridge alone.
     """
@@ -53,8 +53,8 @@ def total_loss(raw: Tensor, truth: Tensor, centerline: str = "bce_dice") -> dict
     error = (raw[:, 3].sigmoid() - half).abs() / (half + 1 / MAX_HALF_WIDTH)
     parts = {
         "centerline": CENTERLINE_LOSSES[centerline](raw[:, 0], line),
-        "junctions": weighted_bce(raw[:, 1], junctions, 10.0),
-        "endpoints": weighted_bce(raw[:, 2], endpoints, 10.0),
+        "junctions": 0.5 * weighted_bce(raw[:, 1], junctions, 10.0),
+        "endpoints": 0.3 * weighted_bce(raw[:, 2], endpoints, 10.0),
         "half_width": 0.3 * (error * ridge).sum() / (ridge.sum() + 1),
         "solid": functional.binary_cross_entropy_with_logits(raw[:, 4], solid),
     }
