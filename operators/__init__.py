@@ -7,6 +7,7 @@ from importlib import import_module
 _VERBS = (
     "trace",
     "import_scan",
+    "use_defaults",
     "sequence",
     "reroute",
     "join",

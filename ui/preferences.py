@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import bpy
-from bpy.props import FloatProperty, FloatVectorProperty
+from bpy.props import FloatProperty, FloatVectorProperty, PointerProperty
 
+from ..operators.trace_settings import INVOLUTE_PG_trace_settings
 from . import colors
+from .settings_layout import draw_settings
 
 _PACKAGE = __package__.rpartition(".")[0]
 
@@ -25,6 +27,11 @@ def _color(name: str, description: str, default: colors.Color) -> object:
 class INVOLUTE_AP_preferences(bpy.types.AddonPreferences):
     bl_idname = _PACKAGE
 
+    defaults: PointerProperty(
+        type=INVOLUTE_PG_trace_settings,
+        name="Defaults",
+        description="Trace settings that Reset to Defaults brings back",
+    )
     color_sure: _color("Certain", "Color of junctions that are certain", colors.SURE)
     color_doubtful: _color("Doubtful", "Color of the most doubtful junctions", colors.DOUBTFUL)
     color_locked: _color("Locked", "Color of junctions that you have fixed", colors.LOCKED)
@@ -43,6 +50,10 @@ class INVOLUTE_AP_preferences(bpy.types.AddonPreferences):
         column = layout.column(heading="Junction Overlay")
         for name in ("color_sure", "color_doubtful", "color_locked", "ring_size"):
             column.prop(self, name)
+        header, body = layout.panel("involute_defaults", default_closed=True)
+        header.label(text="Default Trace Settings")
+        if body is not None:
+            draw_settings(body, self.defaults)
         self._draw_keys(context)
         self._draw_networks()
 

@@ -11,6 +11,7 @@ from ..operators.playing import plays_frames
 from ..operators.sequence import INVOLUTE_OT_import_sequence, INVOLUTE_OT_trace_sequence
 from ..operators.trace import INVOLUTE_OT_cancel, INVOLUTE_OT_trace, is_image_empty
 from ..operators.trace_settings import as_values, scene_settings
+from ..operators.use_defaults import INVOLUTE_OT_use_defaults
 from ..operators.view_state import Shown, shown_in
 from .presets import draw_preset_menu
 from .settings_layout import draw_settings
@@ -23,6 +24,9 @@ class INVOLUTE_PT_trace(bpy.types.Panel):
     bl_category = "Involute"
 
     def draw_header_preset(self, context: bpy.types.Context) -> None:
+        self.layout.operator(
+            INVOLUTE_OT_use_defaults.bl_idname, text="", icon="LOOP_BACK", emboss=False
+        )
         draw_preset_menu(self.layout)
 
     def draw(self, context: bpy.types.Context) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+import runpy
 import subprocess
 import sys
 from pathlib import Path
@@ -223,6 +224,31 @@ def test_blend_file_holds_the_same_strokes_as_the_svg(bpy, part, scan, tmp_path)
     radii = curves.point("radius") / placement.unit
     np.testing.assert_allclose(radii, np.concatenate([s.widths for s in strokes]) / 2, atol=1e-3)
     assert bpy.context.scene.camera
+
+
+def test_script_for_blender_without_a_window(bpy, scan, tmp_path):
+    script = Path(__file__).parents[2] / "examples" / "trace_in_blender.py"
+    main = runpy.run_path(str(script))["main"]
+    (tmp_path / "bad.png").write_text("not a picture")
+    out = tmp_path / "out"
+    assert main([str(scan), "--output", str(out)]) == 0
+    assert main([str(tmp_path / "bad.png"), "--output", str(out)]) == 1
+    assert [file.name for file in out.iterdir()] == ["page.blend"]
+    bpy.ops.wm.open_mainfile(filepath=str(out / "page.blend"))
+    assert bpy.data.objects["page"].data["involute"]["version"] == 1
+
+
+def test_defaults_of_the_preferences(bpy):
+    preferences = bpy.context.preferences.addons[MODULE].preferences
+    settings = bpy.context.scene.involute
+    preferences.defaults.tolerance, settings.solids = 0.5, False
+    preferences.defaults.ignore_inks = {"blue"}
+    bpy.ops.involute.use_defaults()
+    assert settings.tolerance == 0.5
+    assert settings.solids
+    assert settings.ignore_inks == {"blue"}
+    preferences.defaults.property_unset("tolerance")
+    preferences.defaults.property_unset("ignore_inks")
 
 
 def test_command_fails_in_one_line(bpy, part, tmp_path, capfd):

@@ -1,0 +1,106 @@
+"""What the Blender side costs: `python -m benchmarks.blender` (needs bpy) prints a table.
+
+CPU time of this process, the median of several runs, on drawings traced from woven pages.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+
+import bpy
+import cv2
+import numpy as np
+from involute.engine import Drawing, Settings, Stroke, vectorize
+from involute.operators import grease_pencil, rerouting, state
+from involute.operators.junction_table import JunctionTable
+from involute.operators.placement import front_view
+from involute.operators.trace import new_object
+from involute.ui import colors, overlay_geometry
+
+_RUNS = 7
+
+
+def main() -> None:
+    """Print milliseconds of CPU beside what they are allowed to be."""
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    rows = [write_ten_thousand(), reroute_among(500), overlay_of(2000)]
+    print(f"{'what':58} {'ms':>8} {'at most':>8}")
+    for what, milliseconds, limit in rows:
+        print(f"{what:58} {milliseconds:8.2f} {limit:8.0f}")
+
+
+def write_ten_thousand() -> tuple[str, float, float]:
+    """10,000 strokes of 50 points into Grease Pencil."""
+    random = np.random.default_rng(0)
+    lines = random.uniform(0, 1000, (10_000, 50, 2)).astype(np.float32)
+    full = np.ones(50, np.float32)
+    none = np.zeros(0, np.int32)
+    strokes = tuple(Stroke(line, 2 * full, full, False, (0, 0, 0), none) for line in lines)
+    blank = vectorize(np.ones((64, 64)), Settings(provider="classical", router="geometric"))
+    drawing = Drawing(blank.graph, blank.routing, strokes, (), (1000, 1000), blank.settings)
+
+    def write() -> None:
+        data = new_object("Many").data
+        grease_pencil.write(data, 1, drawing, front_view(drawing.size), 1)
+
+    return "write 10,000 strokes of 50 points", _milliseconds(write), 200
+
+
+def reroute_among(strokes: int) -> tuple[str, float, float]:
+    """One reroute in a drawing of many strokes: engine, Grease Pencil and stored state."""
+    drawing = woven(24)
+    ends = iter(np.random.default_rng(0).permutation(len(drawing.junctions)).tolist())
+    while len(drawing.strokes) < strokes:
+        drawing = drawing.reroute(next(ends), ())
+    data, place = new_object("Woven").data, front_view(drawing.size)
+    key = state.add(data, drawing, place, "woven")
+    grease_pencil.write(data, 1, drawing, place, key)
+    junctions = iter(drawing.junctions)
+
+    def reroute() -> None:
+        junction = next(j for j in junctions if len(j.alternatives) > 2)
+        pairs = next(a.pairs for a in junction.alternatives if a.pairs != junction.pairs)
+        rerouting.change(data, 1, key, lambda d: d.reroute(junction.index, pairs))
+
+    reroute()
+    return f"reroute one junction of {len(drawing.strokes)} strokes", _milliseconds(reroute), 30
+
+
+def overlay_of(junctions: int) -> tuple[str, float, float]:
+    """The rings of all junctions, made anew."""
+    drawing = woven(int(np.ceil(np.sqrt(junctions))))
+    place, scale = front_view(drawing.size), (colors.SURE, colors.DOUBTFUL, colors.LOCKED)
+    _ = drawing.junctions  # found when the drawing was traced
+
+    def rebuild() -> None:
+        shape = overlay_geometry.rings(JunctionTable.of(drawing), 4.0, scale)
+        place.to_object(shape.points)
+
+    return f"overlay of {len(drawing.junctions)} junctions", _milliseconds(rebuild), 20
+
+
+def woven(lines: int) -> Drawing:
+    """A page of wavy lines both ways, traced: about lines * lines crossings."""
+    side = 30 * (lines + 1)
+    paper = np.full((side, side), 255, np.uint8)
+    t = np.arange(side)
+    for k in range(1, lines + 1):
+        wave = 30 * k + 4 * np.sin(t / 40 + k)
+        for curve in (np.stack([t, wave], 1), np.stack([wave, t], 1)):
+            points = np.round(curve * 16).astype(np.int32).reshape(-1, 1, 2)
+            cv2.polylines(paper, [points], False, 0, 3, cv2.LINE_AA, 4)
+    return vectorize(paper, Settings(provider="classical", router="geometric"))
+
+
+def _milliseconds(work: Callable[[], None]) -> float:
+    times = []
+    for _ in range(_RUNS):
+        start = time.process_time()
+        work()
+        times.append(time.process_time() - start)
+    return 1e3 * float(np.median(times))
+
+
+if __name__ == "__main__":
+    main()
