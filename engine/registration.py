@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import combinations
+from itertools import combinations, pairwise
 from os import PathLike
 from pathlib import Path
 
@@ -34,7 +34,8 @@ class Marks:
     """What was found; points in pixels of the picture that was looked at.
 
     anchors: (K, 2) float32, the middles of the holes, or else of the registration marks, in an
-        order that depends only on the page: K = 3 for a peg bar, 2 for a file punch, 0 for nothing.
+        order that depends only on the page: K = 3 for a peg bar, 2 to 4 for a file punch, 0 when
+        there are none.
     mask: (H, W) bool, all that must not be traced.
     """
 
@@ -253,10 +254,10 @@ def _blobs(dark: Array, pen_width: float) -> list[_Blob]:
 
 
 def _peg_holes(blobs: Sequence[_Blob], shape: tuple[int, int]) -> list[_Blob]:
-    """Slot, round hole, slot in line (a peg bar), or two round holes (a file punch), or nothing.
+    """Slot, round hole, slot in line (a peg bar), or a row of round holes (a file punch), or none.
 
-    The distance between the outer holes is 10 to 50 times the round hole's width: 32 for ACME and
-    Oxberry bars, 13 for ISO 838.
+    From hole to hole it is many times the round hole's width: 16 for ACME and Oxberry bars, 13 for
+    two holes after ISO 838, 14 for the three of American paper.
     """
     rounds = [b for b in blobs if b.is_round()]
     slots = [b for b in blobs if b.is_slot()]
@@ -266,19 +267,26 @@ def _peg_holes(blobs: Sequence[_Blob], shape: tuple[int, int]) -> list[_Blob]:
         for hole in rounds
         if _in_line(left, right, shape)
         and _alike(left, right)
-        and _distance(left, right) > 10 * hole.size[0]
+        and 20 < _distance(left, right) / hole.size[0] < 50
         and abs(_off_middle(left, hole, right)) < 0.5 * hole.size[0]
     ]
-    patterns += [
-        (abs(left.size[0] - right.size[0]) + 1.0, [left, right])
-        for left, right in combinations(_sorted(rounds), 2)
-        if _in_line(left, right, shape)
-        and _alike(left, right)
-        and 10 < _distance(left, right) / left.size[0] < 20
-        and _centred(left, right, shape)
-    ]
-    # Three holes say more than two.
-    return min(patterns, key=lambda p: (-len(p[1]), p[0]), default=(0, []))[1]
+    patterns += [(1.0, row) for row in (_row_of(b, rounds, shape) for b in rounds) if row]
+    return min(patterns, key=lambda p: p[0], default=(0, []))[1]
+
+
+def _row_of(hole: _Blob, rounds: Sequence[_Blob], shape: tuple[int, int]) -> list[_Blob]:
+    """The file punch that a round hole belongs to: 2 to 4 alike, evenly, about mid-page; or none.
+
+    A longer row of dots is a drawn one.
+    """
+    row = _sorted(
+        [b for b in rounds if b is hole or (_in_line(hole, b, shape) and _alike(hole, b))]
+    )
+    if not 2 <= len(row) <= 4 or not _centred(row[0], row[-1], shape):
+        return []
+    gaps = np.array([_distance(a, b) for a, b in pairwise(row)])
+    even = np.ptp(gaps) < 0.05 * gaps.mean()
+    return row if even and 10 < gaps.mean() / hole.size[0] < 20 else []
 
 
 def _crosses(blobs: Sequence[_Blob], shape: tuple[int, int]) -> list[_Blob]:

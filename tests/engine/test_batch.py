@@ -63,7 +63,10 @@ def test_processes_make_what_one_process_makes(tmp_path):
     assert set(outcomes) == set(tasks)
     for task in tasks:
         drawing = Drawing.load(task.outputs[0])
-        assert points_of(drawing) == points_of(vectorize(task.source, SETTINGS))
+        expected = vectorize(task.source, SETTINGS)
+        # The number of threads may change the last bits.
+        for one, other in zip(drawing.strokes, expected.strokes, strict=True):
+            np.testing.assert_allclose(one.points, other.points, atol=0.05)
         report = outcomes[task].report
         assert report["strokes"] == len(drawing.strokes) > 0
         assert (report["width"], report["height"]) == (160, 160)

@@ -50,6 +50,8 @@ def hole_places(holes):
         return [("slot", 450 - distance, 640), ("round", 450, 640), ("slot", 450 + distance, 640)]
     if holes == "file":
         return [("round", 40, 350 - 120), ("round", 40, 350 + 120)]
+    if holes == "three":
+        return [("round", 450 + d, 40) for d in (-260, 0, 260)]
     return []
 
 
@@ -86,6 +88,8 @@ def test_a_peg_bars_holes_are_found_to_the_pixel(ring, degrees):
 
 def test_a_file_punch_and_crosses_are_found():
     assert np.abs(marks_of(page("file")).anchors - [[40.5, 230.5], [40.5, 470.5]]).max() < 1
+    found = marks_of(page("three")).anchors
+    assert np.abs(found - [[450.5 + d, 40.5] for d in (-260, 0, 260)]).max() < 1
     found = marks_of(page("none", crosses=True)).anchors
     assert np.abs(found - np.array(sorted(cross_places())) - 0.5).max() < 1
 
