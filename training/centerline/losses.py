@@ -46,7 +46,8 @@ CENTERLINE_LOSSES: dict[str, Callable[[Tensor, Tensor], Tensor]] = {
 def total_loss(raw: Tensor, truth: Tensor, centerline: str = "bce_dice") -> dict[str, Tensor]:
     """Loss of each head, weighted so that the centerline leads, and "total".
 
-    raw and truth: (N, 5, H, W), channels as in model.HEADS. The truth's half-width is a share of MAX_HALF_WIDTH; it counts on the ridge alone.
+    raw and truth: (N, 5, H, W), channels as in model.HEADS. The truth's half-width is a share of
+    MAX_HALF_WIDTH; it counts on the ridge alone.
     """
     line, junctions, endpoints, half, solid = (truth[:, k] for k in range(len(HEADS)))
     ridge = line * (line > 0.2)
