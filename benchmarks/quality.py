@@ -88,12 +88,11 @@ def _judge(work: tuple[str, Page, Path | None]) -> Result:
 
 def _write_svg(strokes: list[np.ndarray], path: Path) -> None:
     path.parent.mkdir(parents=True, exist_ok=True)
-    size = np.max([s.max(0) for s in strokes] or [(1024, 1024)], axis=0)
     lines = "\n".join(
         '<path d="M' + " L".join(f"{x:.3f} {y:.3f}" for x, y in s) + '"/>' for s in strokes
     )
     path.write_text(
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 1024 {max(1024, size[1]):.0f}">'
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 1024 1024">'
         f'<g fill="none" stroke="#000">\n{lines}\n</g></svg>\n',
         "utf-8",
     )

@@ -19,6 +19,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -111,14 +112,13 @@ def _pytest(python: Path, *what: str, **environment: str) -> tuple[bool, str]:
     return code == 0, closing if code == 0 else f"{closing}; exit code {code}"
 
 
+@cache
 def _extension() -> str:
     """The zip for this machine, built once a run."""
-    if not hasattr(_extension, "path"):
-        folder = ROOT / "build" / "tests"
-        shutil.rmtree(folder, ignore_errors=True)
-        _check([sys.executable, str(ROOT / "package.py"), "--platform", "host", "-o", str(folder)])
-        _extension.path = str(next(folder.glob("*.zip")))
-    return _extension.path
+    folder = ROOT / "build" / "tests"
+    shutil.rmtree(folder, ignore_errors=True)
+    _check([sys.executable, str(ROOT / "package.py"), "--platform", "host", "-o", str(folder)])
+    return str(next(folder.glob("*.zip")))
 
 
 def _once(home: Path, content: str, make: Callable[[], None]) -> None:
