@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from involute.engine.centerline import network, tiles
-from involute.engine.centerline.backends import load
+from involute.engine.centerline.backends import _torch_gpu, load
 from involute.engine.errors import Cancelled, InvoluteError
 from involute.engine.settings import Settings
 from involute.engine.values import Scan
@@ -103,6 +103,12 @@ def test_broken_weights_are_an_error(tmp_path):
     broken.write_bytes(b"no network")
     with pytest.raises(InvoluteError, match=r"broken\.onnx"):
         load(broken, "cpu")
+
+
+@pytest.mark.skipif(_torch_gpu() is not None, reason="there is a GPU")
+def test_a_gpu_that_is_not_there_is_an_error():
+    with pytest.raises(InvoluteError, match="GPU"):
+        load(network.WEIGHTS, "gpu")
 
 
 def test_blank_page():

@@ -10,7 +10,7 @@ import pytest
 
 torch = pytest.importorskip("torch")
 
-from involute.engine.centerline import onnx_torch  # noqa: E402
+from involute.engine.centerline import backends, onnx_torch  # noqa: E402
 from involute.engine.centerline.backends import load  # noqa: E402
 from involute.training.centerline import geometry, losses, media, metrics  # noqa: E402
 from involute.training.centerline.data import Pages, split  # noqa: E402
@@ -164,3 +164,4 @@ def test_opencv_and_both_torch_forms_agree(tmp_path):
         read = onnx_torch.module(out.read_bytes())(given)
         assert (read - Exported(folded(net))(given)).abs().max() < 1e-5
     np.testing.assert_allclose(load(out, "cpu")(ink), read[0].numpy(), atol=1e-3)
+    np.testing.assert_allclose(backends._torch(out, "cpu")(ink), read[0].numpy(), atol=1e-3)
