@@ -14,7 +14,7 @@ from involute.engine.values import Pair, PlanarGraph
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
-from .planar import _dissolve
+from .planar import dissolve
 
 Array = np.ndarray
 
@@ -111,7 +111,7 @@ def contracted(page: Page, length: float) -> Page:
     goes = np.where(short[goes >> 1], np.arange(len(goes)), goes)
     lines = [moved.branch(b).astype(np.float64) for b in kept]
     strokes = [page.stroke[graph.offsets[b] : graph.offsets[b + 1]] for b in kept]
-    graph, stroke, partner = _dissolve(
+    graph, stroke, partner = dissolve(
         merged, lines, strokes, of_vertex[graph.ends[kept]], new_of[goes[halves]]
     )
     return Page(graph, partner, stroke)

@@ -52,20 +52,30 @@ def graph_from_strokes(
         The graph, and (2B,) int32 partners: partner[partner[h]] == h, and partner[h] == h where
         the stroke ends; the two halves of a circle without junctions are partners of each other.
     """
-    lines, source = _clean(strokes)
-    if doubled > 0 and lines:
-        lines, source = _drop_doubled(lines, source, doubled)
+    lines, source = _single_lines(strokes, doubled)
     if not lines:
         return PlanarGraph.empty(), np.zeros(0, np.int32)
     ink = _Ink(lines, touch)
     position, visits = _visits(ink, touch, merge)
-    graph, of_point, partner = _dissolve(*_branches(ink, position, visits, merge))
+    graph, of_point, partner = dissolve(*_branches(ink, position, visits, merge))
     of_point = np.asarray(source)[of_point]
     given = {"widths": (widths, np.float32), "strength": (strength, np.float32)}
     values = {k: np.asarray(v, t)[of_point] for k, (v, t) in given.items() if v is not None}
     if colors is not None:
         values["colors"] = np.asarray(colors, np.uint8)[of_point]
     return PlanarGraph(graph.vertices, graph.points, graph.offsets, graph.ends, **values), partner
+
+
+def single_lines(strokes: Sequence[Array], doubled: float = 1.0) -> list[Array]:
+    """The strokes without what is drawn twice, as `graph_from_strokes` takes them."""
+    return _single_lines(strokes, doubled)[0]
+
+
+def _single_lines(strokes: Sequence[Array], doubled: float) -> tuple[list[Array], list[int]]:
+    lines, source = _clean(strokes)
+    if doubled > 0 and lines:
+        lines, source = _drop_doubled(lines, source, doubled)
+    return lines, source
 
 
 class _Ink:
@@ -348,10 +358,18 @@ def _branches(
     return position, lines, sources, ends, partner
 
 
-def _dissolve(
+def dissolve(
     position: Array, lines: list[Array], sources: list[Array], ends: Array, partner: Array
 ) -> tuple[PlanarGraph, Array, Array]:
-    """Take vertices of degree 2 out by joining their two branches; circles keep one."""
+    """Take vertices of degree 2 out by joining their two branches; circles keep one.
+
+    Args:
+        position: (V, 2); lines, sources: the polyline of each branch and the stroke of each of its
+            points; ends: (B, 2) vertices; partner: (2B,).
+
+    Returns:
+        The graph, (P,) stroke of each point, and the partners.
+    """
     at = ends.reshape(-1)
     degree = np.bincount(at, minlength=len(position))
     order = np.argsort(at, kind="stable")

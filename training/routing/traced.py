@@ -22,6 +22,7 @@ from scipy.spatial import cKDTree
 
 from .augment import Page
 from .pages import Library, loosened
+from .planar import single_lines
 
 Array = np.ndarray
 
@@ -111,9 +112,11 @@ def trace_ink(rng: np.random.Generator, strokes: list[Array], settings: Settings
 def matched(graph: PlanarGraph, strokes: list[Array]) -> Page:
     """The page of a traced graph: pairs that one true stroke runs through are allowed.
 
-    Where allowed pairs contradict each other, because two strokes share a branch, `partner` takes
-    those that were matched first.
+    Lines drawn twice count once, as in `planar`. Where allowed pairs still contradict each other,
+    because the tracer made one branch of two strokes, `partner` takes those that were matched
+    first.
     """
+    strokes = single_lines(strokes)
     partner = np.arange(2 * graph.branch_count)
     stroke = np.zeros(len(graph.points))
     loop = np.flatnonzero(graph.degrees[graph.half_vertex] == 2)
