@@ -7,6 +7,8 @@ dust and scratches taken away                                  (sweep)
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from ..settings import Settings
@@ -20,7 +22,7 @@ from .ridge import Ridge
 from .skeleton import Chains, thin, trace
 from .smoothing import even, smooth
 from .tips import open_tips, split_bends
-from .topology import contract, select
+from .topology import contract, join, select
 
 
 def build_graph(maps: LineMaps, pen_width: float, settings: Settings) -> PlanarGraph:
@@ -42,7 +44,12 @@ def build_graph(maps: LineMaps, pen_width: float, settings: Settings) -> PlanarG
     graph = split_bends(open_tips(graph, ridge.value, 2.0))
     graph = even(resolve(graph, ridge.value, 2.0))
     graph = place_ends(graph, ridge.value)
-    return even(smooth(even(graph), round(10 * settings.smoothing)))
+    graph = join(even(smooth(even(graph), round(10 * settings.smoothing))))
+    # A curve that was continued must not leave the page.
+    page = np.array(ridge.value.shape[::-1], np.float32)
+    return replace(
+        graph, vertices=np.clip(graph.vertices, 0, page), points=np.clip(graph.points, 0, page)
+    )
 
 
 def _pixel_graph(chains: Chains, ridge: Ridge) -> PlanarGraph:

@@ -17,7 +17,7 @@ from .blobs import find_blobs
 from .curves import SAMPLES, Continuations, best_pairing, extend, pairs_within
 from .halves import Halves, read_halves
 from .sampling import sample
-from .topology import connected, join, select
+from .topology import connected, join
 
 Array = np.ndarray
 
@@ -33,6 +33,9 @@ def resolve(graph: PlanarGraph, value: Array, pen: float) -> PlanarGraph:
         graph: the skeleton, its points on the crest of the lines.
         value: (H, W) the smoothed centerline map.
         pen: width of the ridge, px.
+
+    Returns:
+        The graph, its junctions in place; sharp bends are still vertices of degree two.
     """
     ring = graph.ends[graph.ends[:, 0] == graph.ends[:, 1], 0]
     active = graph.degrees >= 2
@@ -164,7 +167,7 @@ def _meeting_points(paths: Array, blob: Array, middle: Array, value: Array) -> A
     """
     count, found = len(middle), middle
     bend = np.bincount(blob, minlength=count) == 2
-    prior = np.where(bend, 1 / 2.5**2, 1.0)
+    prior = np.where(bend, 1 / 5.0**2, 1.0)
     rows = np.arange(len(paths))
     gap = np.hypot(*(paths[:, 0] - middle[blob]).T)
     trust = 1 / (0.15**2 + (0.08 * gap) ** 2)
@@ -303,4 +306,5 @@ def _assemble(
             np.int32
         ),
     )
-    return join(select(result, np.ones(result.branch_count, bool)))
+    hold = np.arange(len(vertices)) >= first_junction
+    return join(result, hold)

@@ -1,10 +1,9 @@
-"""Width, strength and colour of the ink along every branch."""
+"""Width, darkness and colour of the ink along every branch."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 
-import cv2
 import numpy as np
 
 from ..values import LineMaps, PlanarGraph, Scan
@@ -12,20 +11,76 @@ from .sampling import sample
 
 Array = np.ndarray
 
+_STEP = 0.5  # px between the samples across a line
+_ALONG = 4  # points on either side that agree on a width
+
 
 def measure(graph: PlanarGraph, scan: Scan, maps: LineMaps) -> PlanarGraph:
-    """Fill in widths (px), strength and colours of a graph, from the page it was traced on."""
+    """Fill in what the ink says along a graph.
+
+    Args:
+        graph: its points about 1 px apart.
+        scan: the page it was traced on.
+        maps: its half_width, where there is one, is taken for the widths.
+
+    Returns:
+        The graph with widths (full width of the line, px), strength in [0, 1], and colors, which
+        are None on a grey page.
+    """
     if graph.branch_count == 0:
         return graph
-    half = maps.half_width
-    if half is None:
-        # The distance to the paper, from the middle of the pixels: half a pixel short.
-        half = cv2.distanceTransform(
-            (scan.ink > 0.5).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_PRECISE
-        )
-    widths = np.clip(2 * sample(half, graph.points), 1.0, 8 * scan.pen_width)
-    strength = np.clip(sample(scan.ink, graph.points), 0.0, 1.0)
+    if maps.half_width is not None:
+        widths = 2 * sample(maps.half_width, graph.points)
+    else:
+        widths = _widths(graph, scan)
+    widths = np.where(np.isfinite(widths) & (widths > 0), widths, scan.pen_width)
+    widths = np.clip(_agreed(graph, widths), 0.5, max(8 * scan.pen_width, 8.0))
+    strength = np.clip(_agreed(graph, sample(scan.ink, graph.points)), 0.0, 1.0)
     colors = None
     if scan.color is not None:
-        colors = np.rint(sample(scan.color, graph.points)).astype(np.uint8)
-    return replace(graph, widths=widths, strength=strength, colors=colors)
+        colors = np.rint(_agreed(graph, sample(scan.color, graph.points))).astype(np.uint8)
+    return replace(
+        graph, widths=widths.astype(np.float32), strength=strength.astype(np.float32), colors=colors
+    )
+
+
+def _widths(graph: PlanarGraph, scan: Scan) -> Array:
+    """(P,) width of the ink across the line: to half the darkness of its middle on either side."""
+    reach = np.arange(0.0, max(3.0, 2.5 * scan.pen_width) + _STEP, _STEP)
+    normal = _normals(graph)
+    sides = []
+    middle = sample(scan.ink, graph.points)
+    for sign in (-1.0, 1.0):
+        at = graph.points[:, None] + sign * reach[:, None] * normal[:, None]
+        profile = sample(scan.ink, at)
+        # The darkest point of the line need not be the traced one.
+        level = 0.5 * np.maximum(middle, profile[:, :3].max(1))[:, None]
+        paper = profile < level
+        out = np.where(paper.any(1), paper.argmax(1), len(reach) - 1)
+        inside = np.maximum(out - 1, 0)
+        rows = np.arange(len(out))
+        high, low = profile[rows, inside], profile[rows, out]
+        part = np.clip((high - level[:, 0]) / np.maximum(high - low, 1e-6), 0.0, 1.0)
+        sides.append(np.where(out > 0, reach[inside] + part * _STEP, 0.0))
+    return sides[0] + sides[1]
+
+
+def _normals(graph: PlanarGraph) -> Array:
+    """(P, 2) unit vectors across the branches."""
+    count = np.diff(graph.offsets)
+    index = np.arange(len(graph.points))
+    first, last = np.repeat(graph.offsets[:-1], count), np.repeat(graph.offsets[1:] - 1, count)
+    points = graph.points.astype(np.float64)
+    along = points[np.minimum(index + 2, last)] - points[np.maximum(index - 2, first)]
+    size = np.maximum(np.hypot(*along.T), 1e-9)[:, None]
+    return np.stack([-along[:, 1], along[:, 0]], -1) / size
+
+
+def _agreed(graph: PlanarGraph, values: Array) -> Array:
+    """Running median along each branch: at a junction the other line counts for nothing."""
+    count = np.diff(graph.offsets)
+    index = np.arange(len(graph.points))[:, None]
+    first = np.repeat(graph.offsets[:-1], count)[:, None]
+    last = np.repeat(graph.offsets[1:] - 1, count)[:, None]
+    window = np.clip(index + np.arange(-_ALONG, _ALONG + 1), first, last)
+    return np.median(values[window], axis=1)

@@ -21,6 +21,7 @@ Array = np.ndarray
 
 SPAN = 5  # points on either side that tell the angle of a bend
 SHARP = np.cos(np.radians(50.0))
+SMALL_RING = 40  # points
 LONGEST = 24.0  # px; stem of a V that is a tip
 
 
@@ -71,7 +72,10 @@ def split_bends(graph: PlanarGraph) -> PlanarGraph:
     count = np.diff(graph.offsets)
     index = np.arange(len(points))
     first, last = np.repeat(graph.offsets[:-1], count), np.repeat(graph.offsets[1:] - 1, count)
-    room = np.flatnonzero((index - first >= SPAN) & (last - index >= SPAN))
+    # A small circle turns everywhere, and has no bend.
+    ring = (graph.ends[:, 0] == graph.ends[:, 1]) & (count < SMALL_RING)
+    room = (index - first >= SPAN) & (last - index >= SPAN) & ~np.repeat(ring, count)
+    room = np.flatnonzero(room)
     if not len(room):
         return graph
     came = points[room] - points[room - SPAN]
@@ -79,6 +83,13 @@ def split_bends(graph: PlanarGraph) -> PlanarGraph:
     size = np.hypot(*came.T) * np.hypot(*goes.T)
     cosine = np.ones(len(points))
     cosine[room] = (came * goes).sum(1) / np.maximum(size, 1e-9)
+    # A bend turns at once; a small circle turns less in less way.
+    came = points[room] - points[room - SPAN // 2]
+    goes = points[room + SPAN // 2] - points[room]
+    size = np.hypot(*came.T) * np.hypot(*goes.T)
+    at_once = np.arccos(np.clip((came * goes).sum(1) / np.maximum(size, 1e-9), -1, 1))
+    round_off = at_once < 0.45 * np.arccos(np.clip(cosine[room], -1, 1))
+    cosine[room[round_off]] = 1.0
     # Only the sharpest point of every bend.
     near = np.lib.stride_tricks.sliding_window_view(
         np.pad(cosine, SPAN, constant_values=1.0), 2 * SPAN + 1

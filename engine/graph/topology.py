@@ -28,12 +28,18 @@ def select(graph: PlanarGraph, keep: Array) -> PlanarGraph:
     )
 
 
-def join(graph: PlanarGraph) -> PlanarGraph:
-    """Join branches at vertices of degree two, so that only ends, junctions and rings remain."""
+def join(graph: PlanarGraph, hold: Array | None = None) -> PlanarGraph:
+    """Join branches at vertices of degree two, so that only ends, junctions and rings remain.
+
+    hold: (V,) bool, vertices that stay all the same.
+    """
     if graph.branch_count == 0:
         return PlanarGraph.empty()
     halves = np.arange(2 * graph.branch_count)
-    order, bounds = follow(graph.half_vertex, halves ^ 1, graph.degrees != 2)
+    stop = graph.degrees != 2
+    if hold is not None:
+        stop |= hold
+    order, bounds = follow(graph.half_vertex, halves ^ 1, stop)
     branch, flipped = order >> 1, (order & 1).astype(bool)
     counts = np.diff(graph.offsets)[branch]
     # Read every branch in walking order; all but the last of a chain leave out their last point.
