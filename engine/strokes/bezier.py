@@ -41,7 +41,7 @@ def fit(
     for turn in range(64):
         if not len(first):
             break
-        inner_a, inner_b, worst, error = _fit_all(points, ahead, back, first, last)
+        inner_a, inner_b, worst, error = _fit_all(points, ahead, back, first, last, tolerance)
         split = (error > tolerance) & (last - first > 1)
         done = ~split
         right[first[done]], left[last[done]] = inner_a[done], inner_b[done]
@@ -69,7 +69,7 @@ def _unit(vectors: Array) -> Array:
 
 
 def _fit_all(
-    points: Array, ahead: Array, back: Array, first: Array, last: Array
+    points: Array, ahead: Array, back: Array, first: Array, last: Array, tolerance: float
 ) -> tuple[Array, Array, Array, Array]:
     """One cubic for each stretch: its two handles, its worst sample and the error there."""
     sample, stretch, begin = runs(first, last)
@@ -113,5 +113,5 @@ def _fit_all(
         slope = (d1 * d1).sum(1) + (away * d2).sum(1)
         move = (away * d1).sum(1) / np.where(np.abs(slope) > 1e-9, slope, np.inf)
         t = np.clip(t - np.clip(move, -0.1, 0.1), 0.0, 1.0)
-    worst, error = worst_of(np.hypot(*away.T), begin, sample)
+    worst, error = worst_of(np.hypot(*away.T), tolerance, begin, sample)
     return p, q, worst, error

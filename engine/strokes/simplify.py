@@ -10,6 +10,7 @@ import numpy as np
 
 Array = np.ndarray
 
+_STEPS = 32  # of the tolerance, to which errors are rounded up; see `worst_of`
 _EVEN = 24  # rounds after which stretches are halved, so that no line costs more than n log n
 
 
@@ -28,7 +29,7 @@ def simplify(points: Array, keep: Array, tolerance: float) -> Array:
         first, last = _longer_than(first, last, 1)
         if not len(first):
             break
-        worst, distance = _farthest(points, first, last)
+        worst, distance = _farthest(points, first, last, tolerance)
         split = distance > tolerance
         middle = (first + last) // 2 if turn > _EVEN else worst
         first, last, middle = first[split], last[split], middle[split]
@@ -49,8 +50,14 @@ def runs(first: Array, last: Array) -> tuple[Array, Array, Array]:
     return first[stretch] + np.arange(size.sum()) - begin[stretch], stretch, begin
 
 
-def worst_of(error: Array, begin: Array, sample: Array) -> tuple[Array, Array]:
-    """The greatest error of each stretch, and the sample where it is first met."""
+def worst_of(error: Array, tolerance: float, begin: Array, sample: Array) -> tuple[Array, Array]:
+    """The greatest error of each stretch, and the sample where it is first met.
+
+    Errors are rounded up to small parts of the tolerance: along a gentle bend many samples are
+    about as far off, and the last bits of their positions shall not decide between them.
+    """
+    unit = max(tolerance / _STEPS, 1e-9)
+    error = np.ceil(error / unit) * unit
     greatest = np.maximum.reduceat(error, begin)
     size = np.diff(np.append(begin, len(error)))
     hit = np.flatnonzero(error == np.repeat(greatest, size))
@@ -64,7 +71,7 @@ def _longer_than(first: Array, last: Array, steps: int) -> tuple[Array, Array]:
     return first[long], last[long]
 
 
-def _farthest(points: Array, first: Array, last: Array) -> tuple[Array, Array]:
+def _farthest(points: Array, first: Array, last: Array, tolerance: float) -> tuple[Array, Array]:
     """The inner sample of each stretch that is farthest from its chord, and how far it is."""
     sample, stretch, begin = runs(first, last)
     start, chord = points[first], points[last] - points[first]
@@ -74,4 +81,4 @@ def _farthest(points: Array, first: Array, last: Array) -> tuple[Array, Array]:
     away -= t[:, None] * chord[stretch]
     distance = np.sqrt((away * away).sum(1))
     distance[begin] = distance[begin + last - first] = -1.0
-    return worst_of(distance, begin, sample)
+    return worst_of(distance, tolerance, begin, sample)
