@@ -14,7 +14,8 @@ from ..engine import InvoluteError
 from ..engine.sequence import Frame
 from . import grease_pencil as gp
 from . import state, worker
-from .placement import front_view, on_empty
+from .placement import Placement, front_view, on_empty
+from .placing import PlacingSettings, stand
 from .playing import frames_of_empty, frames_of_files, plays_frames
 from .sequence_job import Result, SequenceJob, parts_folder
 from .sources import SUFFIXES
@@ -58,7 +59,9 @@ class SequenceSettings:
     )
 
 
-class INVOLUTE_OT_trace_sequence(SequenceSettings, TraceSettings, bpy.types.Operator):
+class INVOLUTE_OT_trace_sequence(
+    SequenceSettings, PlacingSettings, TraceSettings, bpy.types.Operator
+):
     """Turn numbered drawings into keyframes of one Grease Pencil object, in the background"""
 
     bl_idname = "involute.trace_sequence"
@@ -127,16 +130,18 @@ class INVOLUTE_OT_trace_sequence(SequenceSettings, TraceSettings, bpy.types.Oper
         return self._finish(context, job)
 
     def draw(self, context: bpy.types.Context) -> None:
-        from ..ui.settings_layout import draw_sequence, draw_settings
+        from ..ui.settings_layout import draw_placing, draw_sequence, draw_settings
 
         self.layout.use_property_split = True
         self.layout.use_property_decorate = False
         draw_sequence(self.layout, self)
+        draw_placing(self.layout, self)
         draw_settings(self.layout, self)
 
     def _begin(self, context: bpy.types.Context) -> SequenceJob:
         """Read all that Blender knows; what then runs needs nothing of it."""
         self._name, self._empty, self._target = "", "", ""
+        self._placement: Placement | None = None
         self._written, self._kept, self._failed = 0, 0, []
         options = {"start": self.start if self.own_start else None, "step": self.step}
         empty = context.active_object
@@ -156,6 +161,8 @@ class INVOLUTE_OT_trace_sequence(SequenceSettings, TraceSettings, bpy.types.Oper
             if not gp.is_grease_pencil(context.active_object):
                 raise InvoluteError("Make the Grease Pencil object of the sequence the active one.")
             self._target = context.active_object.name
+        elif not self._empty:
+            stand(context, (1, 1), self.place, self.pixels_per_metre)  # says now if it can't be
         return SequenceJob(
             frames,
             _aligned(engine_settings(self), frames) if self.align else engine_settings(self),
@@ -171,25 +178,31 @@ class INVOLUTE_OT_trace_sequence(SequenceSettings, TraceSettings, bpy.types.Oper
                 self._failed.append(frame)
                 self.report({"WARNING"}, f"Frame {frame}: {drawing}")
                 continue
-            obj = self._object(context)
+            obj = self._object(context, drawing.size)
             if self.resume and unchanged and state.keys_at_exactly(obj.data, frame):
                 self._kept += 1
                 continue
-            empty = bpy.data.objects.get(self._empty)
-            place = on_empty(empty, drawing.size) if empty else front_view(drawing.size)
-            key = state.add(obj.data, drawing, place, f"{self._name} {frame}")
-            gp.write(obj.data, frame, drawing, place, key, alone=True)
+            key = state.add(obj.data, drawing, self._placement, f"{self._name} {frame}")
+            gp.write(obj.data, frame, drawing, self._placement, key, alone=True)
             self._written += 1
 
-    def _object(self, context: bpy.types.Context) -> bpy.types.Object:
-        """The object that takes the keyframes; looked up by name, since undo replaces objects."""
+    def _object(self, context: bpy.types.Context, size: tuple[int, int]) -> bpy.types.Object:
+        """The object that takes the keyframes; looked up by name, since undo replaces objects.
+
+        The first drawing says where all of them lie: a pixel is as large on every frame.
+        """
         obj = bpy.data.objects.get(self._target) if self._target else None
-        if obj is None:
-            obj = new_object(self._name)
-            context.scene.collection.objects.link(obj)
-            self._target = obj.name
-            if empty := bpy.data.objects.get(self._empty):
-                obj.matrix_world = empty.matrix_world.copy()
+        if obj is not None:
+            self._placement = self._placement or state.placement_in(obj.data) or front_view(size)
+            return obj
+        if empty := bpy.data.objects.get(self._empty):
+            self._placement, matrix = on_empty(empty, size), empty.matrix_world.copy()
+        else:
+            self._placement, matrix = stand(context, size, self.place, self.pixels_per_metre)
+        obj = new_object(self._name)
+        obj.matrix_world = matrix
+        context.scene.collection.objects.link(obj)
+        self._target = obj.name
         return obj
 
     def _finish(self, context: bpy.types.Context, job: SequenceJob) -> set[str]:
@@ -199,10 +212,10 @@ class INVOLUTE_OT_trace_sequence(SequenceSettings, TraceSettings, bpy.types.Oper
             if not (job.problem or job.cancelled):
                 self.report({"ERROR"}, "None of the frames could be traced.")
             return {"CANCELLED"}
-        if context.mode == "OBJECT":
+        obj = bpy.data.objects.get(self._target)
+        if context.mode == "OBJECT" and obj is not None:
             for other in context.selected_objects:
                 other.select_set(False)
-            obj = self._object(context)
             obj.select_set(True)
             context.view_layer.objects.active = obj
         said = f"{self._written} keyframes"
@@ -236,7 +249,8 @@ class INVOLUTE_OT_import_sequence(
     )
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        options = {name: getattr(self, name) for name in SequenceSettings.__annotations__}
+        own = (*SequenceSettings.__annotations__, *PlacingSettings.__annotations__)
+        options = {name: getattr(self, name) for name in own}
         names = [file.name for file in self.files if file.name]
         try:
             result = bpy.ops.involute.trace_sequence(

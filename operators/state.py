@@ -71,6 +71,12 @@ def keys_at_exactly(data: bpy.types.ID, frame: int) -> list[int]:
     return keys_at(data, frame) if there else []
 
 
+def placement_in(data: bpy.types.ID) -> Placement | None:
+    """Where the pixels of a traced drawing in this data-block lie; None when there is none."""
+    entry = next(iter(_traces(data).values()), None)
+    return Placement.from_list(entry["placement"]) if entry else None
+
+
 def load(data: bpy.types.ID, key: int) -> Trace:
     """The trace of that key.
 

@@ -12,11 +12,12 @@ from ..engine import InvoluteError
 from . import grease_pencil as gp
 from . import sources, state, worker
 from .placement import Placement, front_view, on_empty
+from .placing import PlacingSettings, stand
 from .sources import Source
 from .trace_settings import TraceSettings, engine_settings
 
 
-class INVOLUTE_OT_trace(TraceSettings, bpy.types.Operator):
+class INVOLUTE_OT_trace(PlacingSettings, TraceSettings, bpy.types.Operator):
     """Turn a scanned drawing into Grease Pencil strokes that run straight through junctions"""
 
     bl_idname = "involute.trace"
@@ -98,10 +99,11 @@ class INVOLUTE_OT_trace(TraceSettings, bpy.types.Operator):
         return self._finish(context, job.results)
 
     def draw(self, context: bpy.types.Context) -> None:
-        from ..ui.settings_layout import draw_settings
+        from ..ui.settings_layout import draw_placing, draw_settings
 
         self.layout.use_property_split = True
         self.layout.use_property_decorate = False
+        draw_placing(self.layout, self)
         draw_settings(self.layout, self)
 
     def _sources(self, context: bpy.types.Context) -> list[Source]:
@@ -157,15 +159,20 @@ class INVOLUTE_OT_trace(TraceSettings, bpy.types.Operator):
             if not gp.is_grease_pencil(obj) or not obj.data.is_editable:
                 raise InvoluteError("Make a Grease Pencil object of this file the active one.")
             for result in done:
-                put(obj, result, frame)
+                put(obj, result, frame, front_view(result.drawing.size))
             return
         if context.mode != "OBJECT":
             bpy.ops.object.mode_set(mode="OBJECT")
+        places = [
+            stand(context, result.drawing.size, self.place, self.pixels_per_metre)
+            for result in done
+        ]
         objects: list[bpy.types.Object] = []
-        for result in done:
+        for result, (placement, matrix) in zip(done, places, strict=True):
             objects.append(new_object(result.source.name))
+            objects[-1].matrix_world = matrix
             context.collection.objects.link(objects[-1])
-            put(objects[-1], result, frame)
+            put(objects[-1], result, frame, placement)
         for other in context.selected_objects:
             other.select_set(False)
         for obj in objects:
@@ -209,11 +216,13 @@ def new_object(name: str) -> bpy.types.Object:
     return bpy.data.objects.new(name, gp.collection().new(name))
 
 
-def put(obj: bpy.types.Object, result: worker.Result, frame: int) -> None:
-    """Write a traced drawing into an object, strokes and routing state."""
+def put(obj: bpy.types.Object, result: worker.Result, frame: int, placement: Placement) -> None:
+    """Write a traced drawing into an object, strokes and routing state.
+
+    An image Empty that shows the picture takes precedence over `placement`.
+    """
     source, drawing = result.source, result.drawing
     empty = bpy.data.objects.get(source.empty) if source.empty else None
-    placement: Placement = front_view(drawing.size)
     if empty is not None:
         placement = on_empty(empty, drawing.size)
         obj.matrix_world = empty.matrix_world.copy()

@@ -43,6 +43,15 @@ def draw_sequence(layout: bpy.types.UILayout, source: object) -> None:
         column.prop(source, name)
 
 
+def draw_placing(layout: bpy.types.UILayout, source: object) -> None:
+    """Draw the properties of a `PlacingSettings`."""
+    column = layout.column()
+    column.prop(source, "place")
+    field = column.row()
+    field.active = source.place != "CAMERA"
+    field.prop(source, "pixels_per_metre")
+
+
 def _flags(layout: bpy.types.UILayout, source: object, name: str) -> None:
     """A choice of several, folded into a menu that says what is chosen."""
     split = layout.split(factor=0.4)
