@@ -30,6 +30,7 @@ _MARGIN = 12.0  # px around the drawing
 _LARGEST = 1100.0  # px; a page is cut to this, so that tracing stays quick
 _PROBE = 8.0  # px along a half-branch, where it is compared with the true strokes
 _NEAR = 2.5  # px; a true stroke this near is the one that was traced
+_RIVAL = 0.7  # px; strokes this much farther off than the nearest one are others
 _ALONG = 0.8  # cosine between a half-branch and the stroke it traces
 
 
@@ -190,6 +191,10 @@ def _traces(graph: PlanarGraph, strokes: list[Array]) -> tuple[Array, ...]:
     along = (heading[row] * tangent[hit]).sum(1)
     row, hit, along = (v[np.abs(along) > _ALONG] for v in (row, hit, along))
     distance = np.hypot(*(place[hit] - probe[row]).T)
+    best = np.full(len(half), np.inf)
+    np.minimum.at(best, row, distance)
+    close = distance < best[row] + _RIVAL
+    row, hit, along, distance = (v[close] for v in (row, hit, along, distance))
     # The nearest sample of every pass of every stroke; passes in opposite directions differ.
     order = np.lexsort((distance, along > 0, owner[hit], row))
     key = np.stack([row, owner[hit], along > 0], 1)[order]
