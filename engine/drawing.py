@@ -144,6 +144,15 @@ class Drawing:
         sure = [j.index for j in self.junctions if not j.locked and 1 - j.doubt >= probability]
         return self._with_locked(sure, True)
 
+    def with_routing(self, partner: Array, locked: Array) -> Drawing:
+        """The drawing as it was when its routing was this, for what stores only that.
+
+        Args:
+            partner: (2B,) int32 and locked: (J,) bool, as in `Routing`.
+        """
+        drawing = self._with_partner(partner)
+        return drawing._replaced(routing=replace(drawing.routing, locked=locked))
+
     def ask_again(self) -> Drawing:
         """Route the junctions that are not locked anew, given those that are."""
         fixed = {j.index: j.pairs for j in self.junctions if j.locked}

@@ -67,6 +67,22 @@ def runs_of(drawing: Drawing, index: int, changed: Array) -> Iterator[Run]:
         yield Run(index, tuple(part), start, end)
 
 
+def beginning(graph: PlanarGraph, stroke: Stroke, half: int) -> tuple[float, int]:
+    """Where and which way a stroke was walked that began with this half-branch of it.
+
+    The same stroke may be walked from its other end, a closed one from any junction.
+
+    Returns:
+        the length along `stroke` at which that walk began, and 1 or -1 for its direction.
+    """
+    branches = stroke.branches.tolist()
+    if half == branches[0]:
+        return 0.0, 1
+    if half in branches:
+        return _lengths_at(graph, stroke, [branches.index(half)])[0], 1
+    return _lengths_at(graph, stroke, [branches.index(half ^ 1) + 1])[0], -1
+
+
 def whole_length(stroke: Stroke) -> float:
     """The length of a stroke's polygon in pixels, with the closing side."""
     return float(_corner_lengths(stroke)[-1])
@@ -86,16 +102,23 @@ def _lengths_at(graph: PlanarGraph, stroke: Stroke, cuts: list[int]) -> list[flo
     whole, count = lengths[-1], len(stroke.branches)
     steps = np.array([_branch_length(graph, int(h) >> 1) for h in stroke.branches])
     expected = np.concatenate([[0.0], np.cumsum(steps)]) * (whole / max(steps.sum(), 1e-9))
+    # A closed stroke need not begin at a junction: its own points say where they lie on it.
+    origin = _place_of(graph, stroke, lengths, 0, 0.0) if stroke.closed else 0.0
     places = []
     for cut in cuts:
         turn, k = divmod(cut, count)
-        if k == 0:
-            place = 0.0
-        else:
-            vertex = graph.vertices[graph.half_vertex[stroke.branches[k]]]
-            place = _nearest_length(stroke, lengths, vertex, expected[k])
-        places.append(place + turn * whole)
+        place = 0.0
+        if k:
+            place = _place_of(graph, stroke, lengths, k, (origin + expected[k]) % whole) - origin
+            place = (place + _NEAR) % whole - _NEAR if stroke.closed else place
+        places.append(origin + place + turn * whole)
     return np.maximum.accumulate(places).tolist()
+
+
+def _place_of(graph: PlanarGraph, stroke: Stroke, lengths: Array, k: int, expected: float) -> float:
+    """How far along the stroke its half-branch k begins."""
+    vertex = graph.vertices[graph.half_vertex[stroke.branches[k]]]
+    return _nearest_length(stroke, lengths, vertex, expected)
 
 
 def _nearest_length(stroke: Stroke, lengths: Array, vertex: Array, expected: float) -> float:

@@ -16,7 +16,7 @@ from ..engine import InvoluteError
 from .curves import ALONG, BEZIER, HALF, POLY, TRACE, Column, Curves, column, stroke_curves
 from .pieces import EPSILON, Piece, cut, join, piece_of, reversed_piece
 from .placement import Placement
-from .runs import Run, changed_halves, runs_of, strokes_through, whole_length
+from .runs import Run, beginning, changed_halves, runs_of, strokes_through, whole_length
 
 if TYPE_CHECKING:
     from ..engine import Drawing, Stroke
@@ -107,14 +107,16 @@ class _Splicer:
 
     def _find(self, affected: Sequence[int]) -> dict[int, list[Piece]]:
         """The Grease Pencil strokes that each traced stroke has become, in order along it."""
-        by_half = {int(self.old.strokes[i].branches[0]) + 1: i for i in affected}
+        owner = {int(h) >> 1: i for i in affected for h in self.old.strokes[i].branches}
         found: dict[int, list[Piece]] = {index: [] for index in affected}
         for number, page in enumerate(self.pages):
-            halves = page.curve(HALF)
-            mine = (page.curve(TRACE) == self.key) & np.isin(halves, list(by_half))
+            halves = page.curve(HALF).astype(np.int64) - 1
+            mine = (page.curve(TRACE) == self.key) & np.isin(halves >> 1, list(owner))
             for curve in np.flatnonzero(mine).tolist():
-                index = by_half[int(halves[curve])]
-                piece = piece_of(page, number, curve, whole_length(self.old.strokes[index]))
+                index = owner[int(halves[curve]) >> 1]
+                stroke = self.old.strokes[index]
+                begin = beginning(self.old.graph, stroke, int(halves[curve]))
+                piece = piece_of(page, number, curve, begin, whole_length(stroke))
                 if piece is None:
                     raise InvoluteError(_UNTELLABLE)
                 # A copy that the artist made lies over the original: it is nobody's piece.
@@ -145,7 +147,7 @@ class _Splicer:
         """What is there of a run, in the direction of its old stroke."""
         stroke = self.old.strokes[run.stroke]
         whole = whole_length(stroke) if stroke.closed else None
-        turns = [0.0] if whole is None else [0.0, whole]
+        turns = [0.0] if whole is None else [0.0, whole, -whole, 2 * whole]
         cuts = []
         for piece in self.pieces[run.stroke]:
             for turn in turns[:1] if piece.cyclic else turns:

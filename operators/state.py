@@ -4,11 +4,13 @@ So it is saved, appended, duplicated and undone together with the strokes. Layer
 can't hold such data, and artists rename and move them: instead every traced stroke carries the key
 of its drawing, and the data-block holds an ID property
 
-    data["involute"] = {"version": 1, "traces": {key: {"drawing": bytes, "stamp": str,
-                                                       "placement": 9 floats, "source": str}}}
+    data["involute"] = {"version": 1, "traces": {key: {
+        "drawing": bytes, "base": str,      the engine's own JSON, compressed, and its hash
+        "routing": bytes, "stamp": str,     what was rerouted and locked since; hash of it all
+        "placement": 9 floats, "source": str}}}
 
-where `drawing` is the engine's own JSON, compressed. Nothing is remembered in Python but decoded
-drawings, looked up by the hash of their content.
+Rerouting stores little and is quick, since the drawing stays as it was traced. Nothing is
+remembered in Python but decoded drawings, looked up by the hash of their content.
 """
 
 from __future__ import annotations
@@ -89,7 +91,7 @@ def load(data: bpy.types.ID, key: int) -> Trace:
     stamp = entry["stamp"]
     drawing = _decoded.get(stamp)
     if drawing is None:
-        drawing = _decode(entry["drawing"])
+        drawing = _with_routing(_base(entry), entry["routing"])
         _remember(stamp, drawing)
     return Trace(key, drawing, Placement.from_list(entry["placement"]), entry["source"], stamp)
 
@@ -109,14 +111,22 @@ def add(data: bpy.types.ID, drawing: Drawing, placement: Placement, source: str)
 
 def store(data: bpy.types.ID, trace: Trace) -> Trace:
     """Store a trace under its key, in place of what was there; return it with its stamp."""
-    blob = _encode(trace.drawing)
-    stamp = blake2b(blob, digest_size=16).hexdigest()
     root = data.get(PROPERTY)
     if root is None:
         data[PROPERTY] = {"version": VERSION, "traces": {}}
         root = data[PROPERTY]
+    old = root["traces"].get(str(trace.key))
+    if old is not None and _differs_in_routing_only(_base(old), trace.drawing):
+        blob, base, routing = old["drawing"], old["base"], _routing_of(trace.drawing)
+    else:
+        blob, routing = _encode(trace.drawing), b""
+        base = _hash(blob)
+        _remember(base, trace.drawing)
+    stamp = _hash(base.encode() + routing)
     root["traces"][str(trace.key)] = {
         "drawing": blob,
+        "base": base,
+        "routing": routing,
         "stamp": stamp,
         "placement": trace.placement.as_list(),
         "source": trace.source,
@@ -173,6 +183,44 @@ def _free_key(data: bpy.types.ID, drawing: Drawing, source: str) -> int:
     while str(key) in traces:
         key = key % 0x7FFFFFFF + 1
     return key
+
+
+def _base(entry: Any) -> Drawing:
+    """The drawing of an entry as it was traced."""
+    drawing = _decoded.get(entry["base"])
+    if drawing is None:
+        drawing = _decode(entry["drawing"])
+        _remember(entry["base"], drawing)
+    return drawing
+
+
+def _differs_in_routing_only(base: Drawing, drawing: Drawing) -> bool:
+    """Was the drawing made from that one by rerouting and locking? Then all else is shared."""
+    return (
+        base.graph is drawing.graph
+        and base.routing.alternatives is drawing.routing.alternatives
+        and base.fills is drawing.fills
+    )
+
+
+def _routing_of(drawing: Drawing) -> bytes:
+    """What rerouting and locking change: partners as int32, then locks as bits, compressed."""
+    routing = drawing.routing
+    partner = routing.partner.astype("<i4").tobytes()
+    return zlib.compress(partner + np.packbits(routing.locked).tobytes(), 3)
+
+
+def _with_routing(base: Drawing, routing: bytes) -> Drawing:
+    if not routing:
+        return base
+    raw, halves = zlib.decompress(routing), len(base.routing.partner)
+    partner = np.frombuffer(raw, "<i4", halves).astype(np.int32)
+    bits = np.unpackbits(np.frombuffer(raw, np.uint8, offset=4 * halves))
+    return base.with_routing(partner, bits[: len(base.routing.locked)].astype(bool))
+
+
+def _hash(content: bytes) -> str:
+    return blake2b(content, digest_size=16).hexdigest()
 
 
 def _remember(stamp: str, drawing: Drawing) -> None:

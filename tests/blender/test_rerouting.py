@@ -110,6 +110,40 @@ def test_touched_strokes_follow_the_engines(bpy, part, seed):
             assert min(apart(points, stroke, closed) for points, closed in found) < 1.5
 
 
+@pytest.mark.parametrize("touched", [False, True])
+def test_strokes_that_run_the_other_way_are_found_again(bpy, part, touched):
+    """As in a sequence, where strokes take the direction that they had on the frame before."""
+    drawing = ring_and_lines(part)
+    obj, placement = make(bpy, part, replace(drawing, strokes=tuple(map(turned, drawing.strokes))))
+    if touched:
+        move(page_of(obj), slice(None), (1e-3, 0, 0))
+    whole = {j.index: j.pairs for j in drawing.junctions}
+    for pairs in ({0: (), 2: ()}, whole, {1: (), 4: ()}, whole, {3: (), 0: ()}):
+        part("operators.state")._decoded.clear()
+
+        def reroute(d, pairs=pairs):
+            for junction, joined in pairs.items():
+                d = d.reroute(junction, joined)
+            return d
+
+        change(part, obj, reroute)
+        found, strokes = strokes_in(part, obj, placement), drawing_of(part, obj).strokes
+        assert len(found) == len(strokes)
+        for stroke in strokes:
+            assert min(apart(points, stroke, closed) for points, closed in found) < 1.5
+
+
+def turned(stroke):
+    """The same stroke walked the other way."""
+    return replace(
+        stroke,
+        points=stroke.points[::-1].copy(),
+        widths=stroke.widths[::-1].copy(),
+        opacity=stroke.opacity[::-1].copy(),
+        branches=(stroke.branches[::-1] ^ 1).copy(),
+    )
+
+
 def apart(points, stroke, closed):
     """The largest distance between a Grease Pencil stroke and an engine stroke, px."""
     if closed != stroke.closed:
