@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from .drawing import Drawing
     from .errors import Cancelled, InvoluteError
     from .pipeline import vectorize
+    from .sequence import trace_sequence
     from .settings import Settings
     from .values import Junction, Stroke
 
@@ -22,9 +23,19 @@ _HOMES = {
     "Junction": "values",
     "Settings": "settings",
     "Stroke": "values",
+    "trace_sequence": "sequence",
     "vectorize": "pipeline",
 }
-__all__ = ["Cancelled", "Drawing", "InvoluteError", "Junction", "Settings", "Stroke", "vectorize"]
+__all__ = [
+    "Cancelled",
+    "Drawing",
+    "InvoluteError",
+    "Junction",
+    "Settings",
+    "Stroke",
+    "trace_sequence",
+    "vectorize",
+]
 
 
 def __getattr__(name: str) -> Any:

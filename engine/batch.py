@@ -28,6 +28,7 @@ from .formats.whole_file import whole_file, write_text
 from .settings import Settings
 
 RECEIPTS = ".involute"  # folder beside the outputs; one small file for each drawing made there
+_MEMORY_PER_WORKER = 1.5e9  # bytes, for a page of A4 at 300 dpi with room to spare
 _IMAGES_PER_WORKER = 200  # then a fresh process takes over
 
 
@@ -68,13 +69,14 @@ def run(
     Closing the iterator stops the work; no output is ever left half-written.
 
     Args:
-        jobs: processes at once; 0 = one per CPU core. 1 works in this process.
+        jobs: processes at once; 0 = one per CPU core, as far as memory goes. 1 works in this
+            process.
         resume: leave out what an earlier run with `resume` has made of the same image bytes with
             the same settings; also keeps the receipts that a later run needs for that.
         progress: called as progress(stage, fraction of the image) when working in this process.
     """
     tasks = list(tasks)
-    jobs = min(jobs or os.cpu_count() or 1, len(tasks))
+    jobs = min(jobs or _default_jobs(), len(tasks))
     if resume:
         _remove_leftovers(tasks)
     if jobs <= 1:
@@ -91,6 +93,15 @@ def run(
     finally:
         pool.stop()
         executor.shutdown(wait=True, cancel_futures=True)
+
+
+def _default_jobs() -> int:
+    cores = os.cpu_count() or 1
+    try:
+        memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
+    except (AttributeError, OSError, ValueError):  # Windows
+        return min(cores, 8)
+    return max(1, min(cores, int(memory / _MEMORY_PER_WORKER)))
 
 
 def perform(
