@@ -61,9 +61,9 @@ def test_turning_and_moving_the_page_changes_nothing(
     )
     before, after = _scores(graph), _scores(moved)
     assert before.keys() == after.keys()
-    # Rounding may decide a tie between two directions anew; all other pairs notice nothing.
+    # Rounding may decide a tie between two directions anew; the other pairs notice nothing.
     change = np.array([abs(before[pair] - after[pair]) for pair in before])
-    assert (change > 0.1).sum() <= 0.1 * len(change)
+    assert not len(change) or np.median(change) < 0.02
 
 
 @given(st.integers(0, 999))
@@ -78,7 +78,7 @@ def test_the_direction_of_a_branch_does_not_matter(scribble: Scribble, seed: int
     before, after = _scores(graph), _scores(backward)
     other = {(min(a ^ 1, b ^ 1), max(a ^ 1, b ^ 1)): value for (a, b), value in before.items()}
     change = np.array([abs(after[pair] - other[pair]) for pair in after])
-    assert (change > 0.1).sum() <= 0.1 * len(change)
+    assert not len(change) or np.median(change) < 0.02
 
 
 def test_a_crossing_runs_straight_and_a_stem_ends_at_its_bar() -> None:
