@@ -38,7 +38,7 @@ def build_graph(maps: LineMaps, pen_width: float, settings: Settings) -> PlanarG
     """
     ridge = Ridge.of(maps.centerline)
     chains = trace(thin(ridge.mask()))
-    if len(chains.pixels) == 0:
+    if len(chains.rows) == 0:
         return PlanarGraph.empty()
     graph = prune(contract(_pixel_graph(chains, ridge), 2.0), 3.0)
     graph = split_bends(open_tips(graph, ridge.value, 2.0))
@@ -65,14 +65,22 @@ def _pixel_graph(chains: Chains, ridge: Ridge) -> PlanarGraph:
     )
     points = crest[chains.pixels]
     points[starts], points[stops] = vertices[ends[:, 0]], vertices[ends[:, 1]]
+    # What remains inside a branching, links between touching pixels of one vertex, goes.
+    keep = ~((ends[:, 0] == ends[:, 1]) & (np.diff(chains.offsets) <= 3))
+    # A dot has no length; it becomes a line just long enough to have a direction.
+    dots = np.setdiff1d(np.arange(chains.node_count), ends[keep])
+    tips = vertices[dots, None] + np.array([[-0.25, 0.0], [0.25, 0.0]])
+    far = chains.node_count + np.arange(len(dots))
+    vertices[dots] = tips[:, 0]
     graph = PlanarGraph(
-        vertices.astype(np.float32),
-        points.astype(np.float32),
-        chains.offsets,
-        ends.astype(np.int32),
+        np.concatenate([vertices, tips[:, 1]]).astype(np.float32),
+        np.concatenate([points, tips.reshape(-1, 2)]).astype(np.float32),
+        np.concatenate([chains.offsets, len(points) + 2 * np.arange(1, len(dots) + 1)]).astype(
+            np.int32
+        ),
+        np.concatenate([ends, np.stack([dots, far], -1)]).astype(np.int32),
     )
-    # What remains inside a branching: links between touching pixels of one vertex.
-    return select(graph, ~((ends[:, 0] == ends[:, 1]) & (np.diff(chains.offsets) <= 3)))
+    return select(graph, np.concatenate([keep, np.ones(len(dots), bool)]))
 
 
 __all__ = ["build_graph", "measure", "sweep"]
