@@ -167,3 +167,11 @@ def test_smoothing_keeps_the_length() -> None:
     for smoothing in (0.0, 0.3, 1.0):
         points = graph_of(wave, smoothing=smoothing).branch(0)
         assert abs(np.hypot(*np.diff(points, axis=0).T).sum() / true - 1) < 0.012
+
+
+@pytest.mark.parametrize("length", [0.2, 1.0, 3.0])
+def test_dots_are_not_lost(length: float) -> None:
+    dots = [ray(70, 0, length), ray(20, 20, 20 + length)]
+    graph = graph_of(*dots)
+    assert graph.branch_count == 2
+    assert not junction_degrees(graph)
