@@ -1,8 +1,21 @@
 """LineMaps -> PlanarGraph: one vertex per junction, one polyline per branch.
 
-ridge -> skeleton -> junctions -> clean-up -> smoothing        (build_graph)
-widths, strength and colour of the ink along every branch      (measure)
-dust and scratches taken away                                  (sweep)
+    ridge       where lines run, to the sub-pixel
+    skeleton    chains of pixels between ends and branchings
+    cleanup     spurs go
+    tips        sharp bends and the tips of Vs
+    halves      the course of every half-branch, outside its blob
+    blobs       which branchings belong together
+    curves      smooth curves through a blob
+    junctions   the graph with its junctions where these curves meet
+    ends        free ends where the line ends
+    smoothing   even, smooth points
+                                                                    all of that is build_graph
+    measure     width, darkness and colour of the ink along every branch
+    dust        what is too small or too faint to be a stroke goes (sweep)
+
+All of it works on flat arrays, in NumPy and OpenCV only: fast enough (about 0.3 ms a junction)
+without a compiled helper, which would need a wheel for every Python and platform.
 """
 
 from __future__ import annotations
@@ -40,7 +53,7 @@ def build_graph(maps: LineMaps, pen_width: float, settings: Settings) -> PlanarG
     chains = trace(thin(ridge.mask()))
     if len(chains.rows) == 0:
         return PlanarGraph.empty()
-    graph = prune(contract(_pixel_graph(chains, ridge), 2.0), 3.0)
+    graph = prune(contract(_pixel_graph(chains, ridge), 2.0), 3.0, maps.endpoints)
     graph = split_bends(open_tips(graph, ridge.value, 2.0))
     graph = even(resolve(graph, ridge.value, 2.0))
     graph = place_ends(graph, ridge.value)

@@ -19,6 +19,7 @@ Array = np.ndarray
 SIGMA = 0.8  # px; 0.7 to 0.9 separates parallels 2.5 px apart and still averages pixel noise
 FAINT = 0.1  # a line may fade to this probability ...
 CLEAR = 0.33  # ... when it reaches this one somewhere (25 and 85 of 255 in the paper)
+PEAK = 0.6  # what smoothing leaves of the crest of a line
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,9 +67,17 @@ class Ridge:
         mean, spread = (dxx + dyy) / 2, np.hypot((dxx - dyy) / 2, dxy)
         # Curved upwards more than downwards = beside a line or between two of them.
         inside = ~((mean > 0) & (mean + spread > 0.02))
+        rows, columns = rows[inside], columns[inside]
         mask = np.zeros(self.value.shape, np.uint8)
-        mask[rows[inside], columns[inside]] = 255
-        return _keep_clear(mask, self.value)
+        mask[rows, columns] = 255
+        # Drop what is faint all over.
+        count, labels = cv2.connectedComponents(mask, connectivity=8, ltype=cv2.CV_32S)
+        label = labels[rows, columns]
+        keep = np.zeros(count, bool)
+        keep[label[self.value[rows, columns] >= CLEAR * PEAK]] = True
+        faint = ~keep[label]
+        mask[rows[faint], columns[faint]] = 0
+        return mask
 
     def normals(self, rows: Array, columns: Array) -> tuple[Array, Array]:
         """Unit vectors across the line (N, 2) and the curvature along them (N,), at pixels."""
@@ -97,12 +106,3 @@ class Ridge:
         with np.errstate(divide="ignore", invalid="ignore"):
             step = np.where(curvature < -1e-6, -slope / curvature, 0.0)
         return centers + np.clip(step, -0.75, 0.75)[:, None] * normal
-
-
-def _keep_clear(mask: Array, value: Array) -> Array:
-    """Drop the 8-connected components of a mask that are faint all over."""
-    count, labels = cv2.connectedComponents(mask, connectivity=8, ltype=cv2.CV_32S)
-    keep = np.zeros(count, bool)
-    keep[labels[(mask > 0) & (value >= CLEAR * 0.6)]] = True
-    keep[0] = False
-    return np.where(keep[labels], np.uint8(255), np.uint8(0))
