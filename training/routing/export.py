@@ -1,7 +1,9 @@
 """Calibrate trained weights and write what the engine ships.
 
-`python -m training.routing.export CHECKPOINT --data DIR` writes engine/weights/routing.onnx and
-routing.json (a scale and a shift of the scores by degree, fitted on held-out drawings).
+`python -m training.routing.export CHECKPOINT ... --data DIR` writes engine/weights/routing.onnx and
+routing.json (a scale and a shift of the scores by degree, fitted on held-out drawings). Of several
+checkpoints that were trained on from the same weights, the mean is taken: it keeps most of what
+each of them learnt. One that is named twice counts twice.
 """
 
 from __future__ import annotations
@@ -26,12 +28,12 @@ _DEGREES = 4  # 3, 4, 5, and 6 or more
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("checkpoint", type=Path)
+    parser.add_argument("checkpoints", type=Path, nargs="+")
     parser.add_argument("--data", type=Path, required=True, help="folder of SOURCE.npz drawings")
     parser.add_argument("--traced", type=Path, help="held-out pages by training.routing.traced")
     parser.add_argument("--out", type=Path, default=WEIGHTS)
     args = parser.parse_args()
-    net = load(args.checkpoint)
+    net = load(*args.checkpoints)
     library = Library.load(args.data, held_out=True)
     held_out = validation(library, args.traced, pages=80, seed=11)
     calibration = calibrate(net, list(held_out.values()))
@@ -40,11 +42,12 @@ def main() -> None:
     export(net, args.out / "routing.onnx")
 
 
-def load(checkpoint: Path) -> RoutingNet:
-    """The network of a checkpoint, ready to run."""
-    saved = torch.load(checkpoint, map_location="cpu")
-    net = RoutingNet(**saved["config"])
-    net.load_state_dict(saved["mean"])
+def load(*checkpoints: Path) -> RoutingNet:
+    """The network of a checkpoint (or the mean of several), ready to run."""
+    saved = [torch.load(checkpoint, map_location="cpu") for checkpoint in checkpoints]
+    net = RoutingNet(**saved[0]["config"])
+    weights = [part["mean"] for part in saved]
+    net.load_state_dict({k: sum(w[k] for w in weights) / len(weights) for k in weights[0]})
     return net.eval()
 
 
@@ -65,7 +68,8 @@ def calibrate(net: RoutingNet, batches: list[Batch]) -> dict[str, list[float]]:
         parts = []
         for scores, batch in zip(raw, batches, strict=True):
             count = np.minimum(batch.mask.sum(1), 2 + _DEGREES)
-            rows = np.flatnonzero((count == degree) & (batch.asked > 0))
+            clear = (batch.truth.sum(2) <= 1).all(1) & (batch.asked > 0)
+            rows = np.flatnonzero((count == degree) & clear)
             mask, truth = (torch.from_numpy(a[rows]) for a in (batch.mask, batch.truth))
             parts.append((scores[rows], mask, truth))
         fits.append(_fit(parts))
