@@ -17,7 +17,7 @@ from .values import Array, Scan
 Fill = tuple[Array, ...]
 """One area: its outer ring, then the rings of its holes; each (N, 2) float32, closed, px."""
 
-_WIDE, _WIDEST = (3.5, 7.0), (6.0, 11.0)  # diameters in pen widths, and at least in px
+_WIDE, _WIDEST = (3.2, 7.0), (5.0, 10.0)  # diameters in pen widths, and at least in px
 _REACH = 2.0  # widest diameters; how far an area goes on from its widest parts
 _LONG, _EVEN, _STROKE = 4.0, 0.8, 16.0  # a line is so many widths long, so even, and so wide in px
 _FRINGE = 1.5  # px; how far the soft edge of an area reaches
