@@ -48,6 +48,18 @@ def test_reroute_applies_an_alternative_and_locks(bpy, part, traced):
         bpy.ops.involute.reroute(junction=99)
 
 
+@pytest.mark.parametrize("mode", ["OBJECT", "EDIT", "PAINT_GREASE_PENCIL"])
+def test_choosing_works_in_every_mode(bpy, part, traced, mode):
+    """Without a mouse, choosing is what Adjust Last Operation runs again."""
+    obj, placement = traced
+    bpy.ops.object.mode_set(mode=mode)
+    assert bpy.ops.involute.choose("EXEC_DEFAULT", junction=4, alternative=1) == {"FINISHED"}
+    ways = drawing_of(part, obj).junctions[4].alternatives
+    assert drawing_of(part, obj).junctions[4].pairs == ways[1].pairs
+    bpy.ops.object.mode_set(mode="OBJECT")
+    assert_same(strokes_in(part, obj, placement), drawing_of(part, obj).strokes)
+
+
 def test_join_and_separate_by_hand(bpy, part, traced):
     obj, placement = traced
     first, second, third, fourth = drawing_of(part, obj).junctions[0].half_branches
