@@ -59,12 +59,14 @@ def scorer_for(settings: Settings) -> Scorer:
 
     if settings.router == "geometric":
         return by_geometry
-    try:
-        from . import network
-    except ImportError:
-        return by_geometry
+    from . import network
+
+    def by_network(graph: PlanarGraph, pairs: np.ndarray, fixed: Fixed) -> np.ndarray:
+        shape = network.score(graph, pairs, fixed, settings)
+        return shape + geometric.tint_score(graph, pairs)
+
     if settings.router == "network" or network.available():
-        return lambda graph, pairs, fixed: network.score(graph, pairs, fixed, settings)
+        return by_network
     return by_geometry
 
 

@@ -192,8 +192,13 @@ def pair_features(graph: PlanarGraph, pairs: Array) -> Array:
     width = np.abs(np.log((half.width[a] + 0.1) / (half.width[b] + 0.1)))
     columns.append(np.minimum(width, 1.5))
     columns.append(np.abs(half.strength[a] - half.strength[b]))
-    columns.append(np.clip(np.hypot(*(half.tint[a] - half.tint[b]).T) - 0.25, 0, 1))
+    columns.append(tint_gap(half, a, b))
     return np.stack(columns, 1)
+
+
+def tint_gap(half: HalfFeatures, a: Array, b: Array) -> Array:
+    """(K,) how much the hue of two inks differs: 0 = one ink, 1 = two."""
+    return np.clip(np.hypot(*(half.tint[a] - half.tint[b]).T) - 0.25, 0, 1)
 
 
 def _misfit(stretch: Stretch, a: Array, b: Array) -> Array:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..values import PlanarGraph
-from .features import FEATURES, pair_features
+from .features import FEATURES, half_features, pair_features, tint_gap
 
 Array = np.ndarray
 
@@ -51,3 +51,13 @@ _WEIGHTS = np.array([WEIGHTS[name] for name in FEATURES])
 def score(graph: PlanarGraph, pairs: Array) -> Array:
     """(K,) float32 log-odds of joining each of the (K, 2) pairs against ending both."""
     return (pair_features(graph, pairs) @ _WEIGHTS).astype(np.float32)
+
+
+def tint_score(graph: PlanarGraph, pairs: Array) -> Array:
+    """(K,) float32 the share of the score that other inks take away; 0 on a grey page.
+
+    For scorers that see no colour: a blue line does not go on as a black one.
+    """
+    if graph.colors is None:
+        return np.zeros(len(pairs), np.float32)
+    return (WEIGHTS["tint"] * tint_gap(half_features(graph), *pairs.T)).astype(np.float32)

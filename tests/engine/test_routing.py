@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -177,3 +179,21 @@ def test_fixed_pairs_must_fit_their_junction(pairs) -> None:
 def test_an_unknown_junction_can_not_be_fixed() -> None:
     with pytest.raises(InvoluteError, match="no junction"):
         route(PlanarGraph.empty(), GEOMETRIC, fixed={0: ()})
+
+
+@pytest.mark.parametrize("router", ["geometric", "network"])
+def test_a_blue_line_does_not_go_on_as_a_black_one(router) -> None:
+    arms = [_line((50, 50), (100, 50)), _line((50, 50), (0, 50)), _line((50, 50), (62, 100))]
+    inks = [(20, 20, 20), (30, 60, 200), (20, 20, 20)]
+    graph, _ = graph_from_strokes(arms, widths=[3.0] * 3, strength=[1.0] * 3, colors=inks)
+    black = replace(graph, colors=np.full_like(graph.colors, 20))
+    east, west, south = (int(h) for x in (1, -1, 0) for h in _halves_towards(graph, x))
+    assert route(black, Settings(router=router)).partner[east] == west
+    assert route(graph, Settings(router=router)).partner[west] == west
+    assert route(graph, Settings(router=router)).partner[east] in (east, south)
+
+
+def _halves_towards(graph: PlanarGraph, x: int) -> list[int]:
+    """The half-branches that leave the only junction to the right (1), left (-1) or neither."""
+    ways = [(h, graph.half_branch(h)) for h in graph.halves_of(graph.junctions[0])]
+    return [h for h, points in ways if np.sign(np.trunc((points[-1] - points[0])[0] / 20)) == x]
