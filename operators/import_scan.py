@@ -46,7 +46,7 @@ class INVOLUTE_OT_import_scan(TraceSettings, bpy.types.Operator, ImportHelper):
         return {"CANCELLED"} if result == {"CANCELLED"} else {"FINISHED"}
 
     def draw(self, context: bpy.types.Context) -> None:
-        from ..ui.settings_layout import draw_settings
+        from .settings_layout import draw_settings
 
         self.layout.use_property_split = True
         self.layout.use_property_decorate = False

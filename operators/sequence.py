@@ -130,7 +130,7 @@ class INVOLUTE_OT_trace_sequence(
         return self._finish(context, job)
 
     def draw(self, context: bpy.types.Context) -> None:
-        from ..ui.settings_layout import draw_placing, draw_sequence, draw_settings
+        from .settings_layout import draw_placing, draw_sequence, draw_settings
 
         self.layout.use_property_split = True
         self.layout.use_property_decorate = False

@@ -99,7 +99,7 @@ class INVOLUTE_OT_trace(PlacingSettings, TraceSettings, bpy.types.Operator):
         return self._finish(context, job.results)
 
     def draw(self, context: bpy.types.Context) -> None:
-        from ..ui.settings_layout import draw_placing, draw_settings
+        from .settings_layout import draw_placing, draw_settings
 
         self.layout.use_property_split = True
         self.layout.use_property_decorate = False

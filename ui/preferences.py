@@ -5,9 +5,9 @@ from __future__ import annotations
 import bpy
 from bpy.props import FloatProperty, FloatVectorProperty, PointerProperty
 
+from ..operators.settings_layout import draw_settings
 from ..operators.trace_settings import INVOLUTE_PG_trace_settings
 from . import colors
-from .settings_layout import draw_settings
 
 _PACKAGE = __package__.rpartition(".")[0]
 

@@ -9,12 +9,12 @@ from ..operators import worker
 from ..operators.import_scan import INVOLUTE_OT_import_scan
 from ..operators.playing import plays_frames
 from ..operators.sequence import INVOLUTE_OT_import_sequence, INVOLUTE_OT_trace_sequence
+from ..operators.settings_layout import draw_settings
 from ..operators.trace import INVOLUTE_OT_cancel, INVOLUTE_OT_trace, is_image_empty
 from ..operators.trace_settings import as_values, scene_settings
 from ..operators.use_defaults import INVOLUTE_OT_use_defaults
 from ..operators.view_state import Shown, shown_in
 from .presets import draw_preset_menu
-from .settings_layout import draw_settings
 
 
 class INVOLUTE_PT_trace(bpy.types.Panel):

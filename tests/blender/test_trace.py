@@ -196,7 +196,7 @@ def test_settings_of_the_engine_all_have_a_property(bpy, part):
     names = {field.name for field in fields(part("engine").Settings)}
     for name in names - {"align"}:  # found out page by page, never typed in
         assert properties[name].description
-    ui = part("ui.settings_layout")
+    ui = part("operators.settings_layout")
     assert {n for _, group in ui.GROUPS for n in group} == set(settings.NAMES)
     assert settings.engine_settings(bpy.context.scene.involute) == part("engine").Settings()
 
