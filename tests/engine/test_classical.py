@@ -37,10 +37,11 @@ def crest(ridge: np.ndarray, column: int) -> float:
 @pytest.mark.parametrize("width", [1.5, 2, 3, 5, 8])
 @pytest.mark.parametrize("slope", [0.0, 0.11, 0.5])
 def test_the_crest_is_the_middle_of_the_line(width, slope):
-    ridge = ridge_of(scan_of((10, 40, 290, 40 + 280 * slope), width=width))
+    scan = scan_of((10, 40, 290, 40 + 280 * slope), width=width)
+    ridge = ridge_of(scan)
     for column in (60, 117, 150, 223):
-        true = 40 + (column + 0.5 - 10) * slope
-        assert abs(crest(ridge, column) - true) < 0.2
+        # The ink's own middle: OpenCV draws a polygon up to 0.17 px off its place.
+        assert abs(crest(ridge, column) - crest(scan.ink, column)) < 0.2
         assert ridge[:, column].max() > 0.5
         assert (ridge[:, column] > 0.3).sum() <= 4
 
