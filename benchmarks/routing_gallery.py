@@ -17,8 +17,8 @@ from involute.engine import Drawing, Settings, vectorize
 
 Array = np.ndarray
 
-_SIDE = 460  # px of a cut-out in the picture
-_CUT = 620  # px of a cut-out in the scan
+_SIDE = 340  # px of a cut-out in the picture
+_CUT = 420  # px of a cut-out in the scan
 
 
 def main() -> None:
@@ -30,7 +30,7 @@ def main() -> None:
     half = (len(rows) + 1) // 2
     rows += [np.full_like(rows[0], 255)] * (2 * half - len(rows))
     picture = np.hstack([np.vstack(rows[:half]), np.vstack(rows[half:])])
-    cv2.imwrite(str(args.out), picture, [cv2.IMWRITE_PNG_COMPRESSION, 9])
+    cv2.imwrite(str(args.out), picture, [cv2.IMWRITE_JPEG_QUALITY, 88])
 
 
 def row(scan: Array) -> Array:
