@@ -1,7 +1,9 @@
-"""The graph stage alone, behind perfect centerlines.
+"""The graph stage alone: behind perfect centerlines, and against a plain skeleton.
 
     python -m benchmarks.graph [--cases DIR]           the case images there: u12, u20, t40 ...
     python -m benchmarks.graph --ideal [--data DIR]    the benchmark's true strokes, 1 px wide
+    python -m benchmarks.graph --stage [--data DIR]    scans: our graph, and a skeleton's, both from
+                                                       the network's centerline
 
 Lines are paired by geometry only. A case is NAME.png, white lines on black, with its truth in
 NAME.svg; one without truth is only timed. Seconds are CPU seconds of one core, best of three;
@@ -21,14 +23,19 @@ from pathlib import Path
 import cv2
 import numpy as np
 from involute.engine import Settings
-from involute.engine.graph import build_graph
+from involute.engine.centerline import provider_for
+from involute.engine.graph import build_graph, measure, sweep
+from involute.engine.graph.topology import join
 from involute.engine.routing import route
+from involute.engine.scan import read_scan
+from involute.engine.solids import split_solids
 from involute.engine.strokes.walk import walk
 from involute.engine.values import LineMaps, PlanarGraph, Routing
 from scipy.spatial import cKDTree
 
-from .drawings import DATA, pages
-from .metrics import LONG_SIDE, Score, evaluate, read_svg, scaled
+from .drawings import DATA, Page, pages
+from .metrics import LONG_SIDE, Score, evaluate, read_svg, scaled, summarize
+from .rivals.skeleton import pieces
 from .tables import markdown
 
 Array = np.ndarray
@@ -54,6 +61,7 @@ def main(argv: Sequence[str] | None = None) -> None:
     )
     parser.add_argument("--cases", type=Path, help="folder of centerline images, some with truth")
     parser.add_argument("--ideal", action="store_true", help="draw the benchmark's truth")
+    parser.add_argument("--stage", action="store_true", help="against a plain skeleton")
     parser.add_argument("--data", type=Path, default=DATA, help="folder with a manifest.json")
     parser.add_argument("--every", type=int, default=1, help="only every n-th drawing")
     arguments = parser.parse_args(argv)
@@ -70,7 +78,10 @@ def main(argv: Sequence[str] | None = None) -> None:
         rows.append(_row(f"ideal, {len(truths)} drawings", [(draw(t), t) for t in truths]))
     if rows:
         print(markdown(_HEAD, rows), "\n")
-    print(growth())
+    if arguments.stage:
+        print(stage(pages(arguments.data)[:: arguments.every]))
+    else:
+        print(growth())
 
 
 def _row(name: str, cases: Iterable[tuple[Array, list[Array] | None]]) -> list[str]:
@@ -118,6 +129,45 @@ def timed(image: Array) -> tuple[float, PlanarGraph]:
         graph = build_graph(maps, 2.0, SETTINGS)
         seconds.append(time.process_time() - start)
     return min(seconds), graph
+
+
+def stage(drawings: Sequence[Page]) -> str:
+    """What the graph stage brings: all else is the same, the network's centerline included."""
+    settings = Settings(provider="network", router="geometric")
+    scores: dict[str, list[Score]] = {"plain skeleton": [], "graph stage": []}
+    for page in drawings:
+        scan = read_scan(page.image, settings)
+        lines, _ = split_solids(scan, settings)
+        maps = provider_for(settings)(lines, lambda fraction: None)
+        graphs = skeleton_graph(maps), build_graph(maps, lines.pen_width, settings)
+        truth = page.true_strokes()
+        for own, graph in zip(scores.values(), graphs, strict=True):
+            graph = sweep(measure(graph, lines, maps), settings)
+            strokes = polylines(graph, route(graph, settings))
+            own.append(evaluate(scaled(strokes, scan.ink.shape[::-1]), truth))
+    figures = {"crossings": "found", "branching": "3+ found", "precision": "precision"}
+    figures |= {"chamfer": "Chamfer", "density": "r_SD", "f1": "F1"}
+    rows = []
+    for name, own in scores.items():
+        summary = summarize(own)
+        rows.append([name, *(f"{summary[key]:.3f}" for key in figures)])
+    return markdown([f"{len(drawings)} drawings", *figures.values()], rows)
+
+
+def skeleton_graph(maps: LineMaps) -> PlanarGraph:
+    """The pieces of the thinned centerline above one half as they are, px."""
+    mask = (maps.centerline > 0.5).astype(np.uint8) * 255
+    found = pieces(cv2.ximgproc.thinning(mask, thinningType=cv2.ximgproc.THINNING_ZHANGSUEN) > 0)
+    if not found.paths:
+        return PlanarGraph.empty()
+    used, ends = np.unique(found.ends, return_inverse=True)
+    graph = PlanarGraph(
+        found.nodes[used].astype(np.float32),
+        np.concatenate(found.paths).astype(np.float32),
+        np.cumsum([0, *map(len, found.paths)]).astype(np.int32),
+        ends.reshape(-1, 2).astype(np.int32),
+    )
+    return join(graph)
 
 
 def polylines(graph: PlanarGraph, routing: Routing) -> list[Array]:
