@@ -24,7 +24,7 @@ _RUNS = 7
 def main() -> None:
     """Print milliseconds of CPU beside what they are allowed to be."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
-    rows = [write_ten_thousand(), reroute_among(500), overlay_of(2000)]
+    rows = [write_ten_thousand(), reroute_among(500), overlay_of(2000), look_up(125)]
     print(f"{'what':58} {'ms':>8} {'at most':>8}")
     for what, milliseconds, limit in rows:
         print(f"{what:58} {milliseconds:8.2f} {limit:8.0f}")
@@ -78,6 +78,22 @@ def overlay_of(junctions: int) -> tuple[str, float, float]:
         place.to_object(shape.points)
 
     return f"overlay of {len(drawing.junctions)} junctions", _milliseconds(rebuild), 20
+
+
+def look_up(junctions: int) -> tuple[str, float, float]:
+    """What a redraw looks up when nothing changed: the trace and the letters, without drawing."""
+    drawing = woven(int(np.ceil(np.sqrt(junctions))))
+    data, place = new_object("Still").data, front_view(drawing.size)
+    key = state.add(data, drawing, place, "still")
+    grease_pencil.write(data, 1, drawing, place, key)
+
+    def redraw() -> None:
+        (found,) = state.keys_at(data, 1)
+        seen = state.load(data, found).drawing
+        overlay_geometry.labels(seen, seen.junctions[0])
+
+    redraw()
+    return f"look-ups of a redraw, {len(drawing.junctions)} junctions", _milliseconds(redraw), 1
 
 
 def woven(lines: int) -> Drawing:
