@@ -23,7 +23,7 @@ from .values import Junction, Pair, PlanarGraph, Routing, Scan, Stroke
 Array = np.ndarray
 Fill = tuple[Array, ...]
 
-DOUBTFUL = 0.1  # a junction is doubtful when another routing is at least this probable
+DOUBTFUL = 0.3  # doubt from which on a junction is worth a look
 
 
 @dataclass(frozen=True, eq=False)
