@@ -129,7 +129,12 @@ def _shipped_files() -> Iterator[Path]:
     for part in SHIPPED:
         path = ROOT / part
         files = path.rglob("*") if path.is_dir() else [path]
-        yield from (f for f in files if f.is_file() and "__pycache__" not in f.parts)
+        yield from (f for f in files if f.is_file() and not _is_cache(f.relative_to(ROOT)))
+
+
+def _is_cache(file: Path) -> bool:
+    """Whether a tool left it there: in __pycache__, .ruff_cache and the like."""
+    return any(part == "__pycache__" or part.startswith(".") for part in file.parts)
 
 
 def _add(archive: zipfile.ZipFile, name: str, content: bytes) -> None:
