@@ -19,11 +19,10 @@ from pathlib import Path
 
 import cv2
 import numpy as np
+from involute.engine import Drawing, Settings
+from involute.engine.sequence import number_frames, trace_sequence
+from involute.engine.sequence.matching import match_strokes, sample_strokes
 from scipy.spatial import cKDTree
-
-from ..engine import Drawing, Settings
-from ..engine.sequence import number_frames, trace_sequence
-from ..engine.sequence.matching import match_strokes, sample_strokes
 
 Array = np.ndarray
 SIZE = 1024

@@ -11,6 +11,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 
+from .distance import depth
 from .errors import InvoluteError
 from .image_file import page_count, read_image
 from .paper import flatten_paper
@@ -228,7 +229,7 @@ def _line_widths(ink: Array) -> Array:
     large = cv2.resize(soft, None, fx=2, fy=2, interpolation=cv2.INTER_LINEAR)
     peak = cv2.dilate(large, np.ones((13, 13), np.uint8))
     dark = (large > np.maximum(0.5 * peak, 0.2)).astype(np.uint8)
-    distance = cv2.distanceTransform(dark, cv2.DIST_L2, cv2.DIST_MASK_PRECISE)
+    distance = depth(dark)
     middle = (dark > 0) & (distance >= cv2.dilate(distance, np.ones((3, 3), np.uint8)))
     _, label, stats, _ = cv2.connectedComponentsWithStats(dark)
     extent = np.hypot(stats[:, cv2.CC_STAT_WIDTH], stats[:, cv2.CC_STAT_HEIGHT])

@@ -11,6 +11,7 @@ from itertools import pairwise
 import cv2
 import numpy as np
 
+from . import distance
 from .settings import Settings
 from .values import Array, Scan
 
@@ -49,7 +50,7 @@ def _areas(dark: Array, wide: float, widest: float) -> Array:
     An area is what discs of radius `wide` can paint within the dark, around a place where even one
     of radius `widest` fits; but a long even line stays a line.
     """
-    depth = cv2.distanceTransform(dark, cv2.DIST_L2, cv2.DIST_MASK_PRECISE)
+    depth = distance.depth(dark)
     seed = depth > widest
     if not seed.any():
         return seed.astype(np.uint8)

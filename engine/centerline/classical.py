@@ -13,6 +13,7 @@ from collections.abc import Callable
 import cv2
 import numpy as np
 
+from ..distance import depth
 from ..values import Array, LineMaps, Scan
 
 _TILE = 1024  # px; pages are worked in tiles, so that memory does not grow with them
@@ -64,8 +65,8 @@ def _dark(ink: Array, pen: float) -> Array:
 
 def _ridge(dark: Array, shape: tuple[int, int]) -> Array:
     """The crest of the signed distance to the edge, as a ridge in [0, 1] of the given shape."""
-    inside = cv2.distanceTransform(dark, cv2.DIST_L2, cv2.DIST_MASK_PRECISE)
-    outside = cv2.distanceTransform(1 - dark, cv2.DIST_L2, cv2.DIST_MASK_PRECISE)
+    inside = depth(dark)
+    outside = depth(1 - dark)
     sigma = _CREST * _FINE
     roof = cv2.GaussianBlur(inside - outside, (0, 0), sigma)
     xx = cv2.filter2D(roof, -1, np.float32([[1, -2, 1]]))
