@@ -12,11 +12,19 @@ torch = pytest.importorskip("torch")
 
 from involute.engine.centerline import backends, onnx_torch  # noqa: E402
 from involute.engine.centerline.backends import load  # noqa: E402
-from involute.training.centerline import geometry, losses, media, metrics  # noqa: E402
+from involute.training.centerline import (  # noqa: E402
+    geometry,
+    losses,
+    media,
+    metrics,
+    sample,
+    wear,
+)
 from involute.training.centerline.data import Pages, split  # noqa: E402
 from involute.training.centerline.export import export, folded, worst_difference  # noqa: E402
 from involute.training.centerline.geometry import Library  # noqa: E402
 from involute.training.centerline.model import STRIDE, CenterlineNet, Exported  # noqa: E402
+from involute.training.centerline.restore import restored  # noqa: E402
 from involute.training.centerline.sample import CHANNELS, page  # noqa: E402
 from involute.training.centerline.targets import targets  # noqa: E402
 from involute.training.centerline.train import main as train  # noqa: E402
@@ -93,10 +101,33 @@ def test_near_lines_keep_a_valley(gap):
 
 def test_width_of_the_ink_is_the_pen_s():
     samples = media.sample([line(10, 48, 86, 48)], 96)
-    pen = media.Medium((6.0, 6.0), density=(1.0, 1.0), fade=(0, 0), swell=(0, 0), ragged=(0, 0))
+    pen = media.Medium(
+        (6.0, 6.0), density=(1.0, 1.0), fade=(0, 0), swell=(0, 0), ragged=(0, 0), skip=0
+    )
     ink, half = media.draw(np.random.default_rng(1), samples, pen, 6.0, 96)
     assert ink[:, 48].sum() == pytest.approx(6.0, abs=0.1)
     assert half == pytest.approx(3.0)
+
+
+def test_where_the_pen_skips_the_centerline_goes_on():
+    samples = media.sample([line(4, 128, 252, 128)], 256)
+    pen = media.Medium((3.0, 3.0), skip=1.0)
+    inks = [media.draw(np.random.default_rng(k), samples, pen, 3.0, 256)[0] for k in range(8)]
+    paper = np.mean([ink[127:129, 10:246].max(0) < 0.3 for ink in inks])
+    assert 0.01 < paper < 0.4
+    seen = sample._visible(samples.position, inks[0])
+    maps = targets(samples.take(seen), np.full(np.count_nonzero(seen), 1.5), 256)
+    assert maps.centerline[127:129, 10:246].max(0).min() > 0.6
+
+
+def test_wear_and_dust_darken_a_sheet_here_and_there():
+    for seed in range(12):
+        left = wear.wear(np.random.default_rng(seed), 128)
+        assert left.shape == (128, 128)
+        assert left.min() > 0.2
+        assert left.max() <= 1.0
+        specks = wear.dust(np.random.default_rng(seed), np.zeros((128, 128), np.float32))
+        assert 0 <= specks.min() <= specks.max() <= 0.8
 
 
 def test_a_page_repeats_and_fills_its_channels(drawings):
@@ -128,7 +159,7 @@ def test_held_out_drawings_are_never_trained_on(drawings):
 
 
 def test_every_loss_prefers_the_truth(drawings):
-    batch = next(iter(Pages(drawings, 2, 64, 0.5, 1, keep=4)))
+    batch = next(iter(Pages(drawings, 8, 64, 0.5, 1, keep=16)))
     _, truth = split(batch)
     right = torch.logit(truth.clamp(0.01, 0.99))
     for name in losses.CENTERLINE_LOSSES:
@@ -149,6 +180,26 @@ def test_a_run_stops_resumes_and_is_recorded(drawings, tmp_path):
     config = json.loads((tmp_path / "config.json").read_text())
     assert config["data_sha256"]
     assert config["seed"] == 1
+
+
+def test_a_run_goes_on_from_shipped_weights(drawings, tmp_path):
+    torch.manual_seed(5)
+    net = CenterlineNet((4, 8)).eval()
+    for layer in net.modules():
+        if isinstance(layer, torch.nn.BatchNorm2d):
+            layer.running_mean.uniform_(-1, 1)
+            layer.running_var.uniform_(0.5, 2)
+    export(net, tmp_path / "shipped.onnx")
+    again = restored(tmp_path / "shipped.onnx")
+    ink = torch.rand(1, 1, 64, 48)
+    with torch.inference_mode():
+        torch.testing.assert_close(again(ink), folded(net)(ink), atol=1e-5, rtol=0)
+    options = ["--data", str(drawings), "--run", str(tmp_path), "--workers", "0", "--batch", "1"]
+    options += ["--crop", "64", "--start-from", str(tmp_path / "shipped.onnx")]
+    train([*options, "--steps", "2"])
+    trained = restored(tmp_path / "checkpoint.pt")
+    export(trained, tmp_path / "next.onnx")
+    assert worst_difference(trained, tmp_path / "next.onnx") < 1e-3
 
 
 def test_opencv_and_both_torch_forms_agree(tmp_path):

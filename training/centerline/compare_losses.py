@@ -16,10 +16,10 @@ import torch
 
 from . import train
 from .data import validation_pages
-from .export import read_checkpoint
 from .geometry import Array
 from .losses import CENTERLINE_LOSSES
 from .metrics import page_figures, pooled
+from .restore import restored
 
 LEVELS = (0.15, 0.25, 0.35, 0.45, 0.55)
 
@@ -49,7 +49,7 @@ def main(arguments: list[str] | None = None) -> None:
 @torch.no_grad()
 def judge(checkpoint: Path, check: Array) -> dict[str, float]:
     """Ridge figures at the level with the best balance of precision and recall."""
-    net = read_checkpoint(checkpoint)
+    net = restored(checkpoint)
     seen = [net(torch.from_numpy(p[None, :1]).float() / 255).sigmoid()[0].numpy() for p in check]
     truth = check[:, 1:].astype(np.float32) / 255
     best: dict[str, float] = {"F1": -1.0}

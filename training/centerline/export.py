@@ -19,6 +19,7 @@ from torch import nn
 from torch.nn.utils.fusion import fuse_conv_bn_eval
 
 from .model import CenterlineNet, Exported
+from .restore import restored
 
 TOLERANCE = 1e-3
 
@@ -29,23 +30,10 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument("--checkpoint", type=Path, required=True)
     parser.add_argument("--out", type=Path, required=True)
     options = parser.parse_args(arguments)
-    net = read_checkpoint(options.checkpoint)
+    net = restored(options.checkpoint)
     export(net, options.out)
     print(f"{options.out.name}: {options.out.stat().st_size / 1e6:.1f} MB")
     print(f"OpenCV against torch: {worst_difference(net, options.out):.1e}")
-
-
-def read_checkpoint(path: Path) -> CenterlineNet:
-    """The running mean of a run's weights, ready for inference."""
-    state = torch.load(path, map_location="cpu")["mean"]
-    widths = tuple(
-        len(state[f"encode.{k}.0.0.weight"])
-        for k in range(len(state))
-        if f"encode.{k}.0.0.weight" in state
-    )
-    net = CenterlineNet(widths).eval()
-    net.load_state_dict(state)
-    return net
 
 
 def folded(net: CenterlineNet) -> CenterlineNet:

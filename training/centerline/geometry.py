@@ -109,9 +109,18 @@ def wobble(rng: Rng, strokes: Strokes, amount: float, length: float) -> Strokes:
     return out
 
 
-def true_drawing(rng: Rng, library: Library, size: int, held_out: bool) -> tuple[Strokes, float]:
-    """A true drawing placed on the page; also the widest pen that suits its scale, in px."""
-    box = float(np.exp(rng.uniform(np.log(0.5 * size), np.log(4.0 * size))))
+def true_drawing(
+    rng: Rng,
+    library: Library,
+    size: int,
+    held_out: bool,
+    extent: tuple[float, float] = (0.5, 4.0),
+) -> tuple[Strokes, float]:
+    """A true drawing placed on the page; also the widest pen that suits its scale, in px.
+
+    extent: how large its box is, in pages.
+    """
+    box = size * float(np.exp(rng.uniform(*np.log(extent))))
     matrix = random_matrix(rng, box / 1024)
     strokes = [s for s in library.pick(rng, held_out) if len(s) > 1]
     if not strokes:
@@ -281,6 +290,7 @@ def dots(rng: Rng, size: int) -> tuple[Strokes, float]:
 def broken(rng: Rng, strokes: Strokes, gap: float) -> Strokes:
     """Strokes cut into dashes and dots with gaps of at least `gap` px: each piece is a stroke."""
     length = float(np.exp(rng.uniform(np.log(1.5), np.log(60))))
+    gap = max(gap, 4.0 + 0.1 * length)  # shorter ones are skips of the pen
     pieces: Strokes = []
     for stroke in strokes[:400]:
         dense = resample(stroke, 1.0)

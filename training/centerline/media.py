@@ -185,6 +185,19 @@ def _pressure(rng: Rng, samples: Samples, length: float) -> Array:
     return np.clip(knots[low % 4096] * (1 - t) + knots[(low + 1) % 4096] * t, -1, 1)
 
 
+def _skips(rng: Rng, samples: Samples) -> tuple[Array, Array]:
+    """Where a pen skips: gaps of about 2 to 8 px, many in a row where it runs dry.
+
+    Returns:
+        The share of ink that is left and of the width that is left, (N,) each.
+    """
+    dry = _pressure(rng, samples, rng.uniform(30, 120)) > rng.uniform(0.1, 1.0)
+    fine = _pressure(rng, samples, rng.uniform(4, 14))
+    over = fine - np.where(dry, rng.uniform(0.3, 0.6), rng.uniform(0.75, 0.98))
+    ink = np.where(over > 0, rng.choice([0.0, 0.05, 0.2]), 1.0)
+    return ink, 1 - rng.uniform(0, 0.6) * np.clip(1 + over / 0.3, 0, 1)
+
+
 def _taper(samples: Samples, length: float, thin: float) -> Array:
     """1 inside a stroke, falling to `thin` at both ends over `length` px (or a third of it)."""
     reach = np.maximum(np.minimum(length, samples.length / 3), 1e-3)
@@ -200,7 +213,7 @@ class Medium:
     (1 = blunt). nib: flatness of a broad nib. density: ink of a full stroke. fade: change of the
     density with pressure. grain: how much the paper's tooth shows; tooth: which noise. ragged:
     roughness of the edge in px. soft: softness of the edge in px. rim: darker edges of wet ink.
-    overlap: strokes of one drawing darken each other. skip: gaps. hand: tremor in px.
+    overlap: strokes of one drawing darken each other. skip: how likely there are gaps.
     """
 
     width: tuple[float, float]
@@ -215,7 +228,7 @@ class Medium:
     soft: tuple[float, float] = (0.5, 0.8)
     rim: tuple[float, float] = (0.0, 0.0)
     overlap: float = 0.0
-    skip: float = 0.0
+    skip: float = 0.25
 
 
 MEDIA: dict[str, Medium] = {
@@ -299,7 +312,7 @@ MEDIA: dict[str, Medium] = {
         tooth=("fine", "grain"),
         ragged=(0.05, 0.3),
         overlap=0.4,
-        skip=0.3,
+        skip=0.5,
     ),
     "fineliner": Medium((1.5, 5.0), (0.0, 0.15), (0.8, 1.15), ragged=(0.05, 0.3), soft=(0.5, 1.0)),
     "coloured pencil": Medium(
@@ -334,6 +347,10 @@ def draw(
         turn = rng.uniform(0, np.pi)
         across = np.abs(samples.tangent @ (-np.sin(turn), np.cos(turn)))
         half *= np.hypot(across, 1 - medium.nib) * rng.uniform(0.9, 1.2)
+    left = 1.0
+    if rng.random() < medium.skip:
+        left, thinner = _skips(rng, samples)
+        half = half * thinner
     half = np.clip(half, 0.45, 10.5)
     layers = [np.ones(len(samples), bool)]
     if rng.random() < medium.overlap:
@@ -345,16 +362,14 @@ def draw(
     grain = rng.uniform(*medium.grain)
     tooth = noise(rng, str(rng.choice(medium.tooth)), size)
     edge_noise = noise(rng, str(rng.choice(["grain", "tooth", "rough"])), size)
-    flow = density * (1 + fade * press)
-    if rng.random() < medium.skip:
-        flow = flow * np.where(_pressure(rng, samples, rng.uniform(4, 12)) > 0.75, 0.15, 1.0)
+    flow = density * (1 + fade * press) * left
     ink = np.zeros((size, size), np.float32)
     for layer in layers:
         ids = np.flatnonzero(layer)
         if not len(ids):
             continue
         edge, owner = nearest(samples.take(ids), half[ids], size, soft + 1.5 * ragged + 0.6)
-        mine = np.clip(flow[ids][owner], 0.02, 1).astype(np.float32)
+        mine = np.clip(flow[ids][owner], 0.0, 1).astype(np.float32)
         cover = np.clip(0.5 - (edge + ragged * edge_noise) / (2 * soft), 0, 1)
         if rim:
             mine = mine * (1 - rim + rim * np.exp(-np.abs(edge + 1.0)))

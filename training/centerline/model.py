@@ -16,29 +16,33 @@ STRIDE = 2 ** len(WIDTHS)  # both sides of an input are multiples of this
 HEADS = ("centerline", "junctions", "endpoints", "half_width", "solid")
 
 
-def _conv(inputs: int, outputs: int, kernel: int = 3, stride: int = 1, pad: int = 1) -> nn.Module:
-    return nn.Sequential(
-        nn.Conv2d(inputs, outputs, kernel, stride, pad, bias=False),
-        nn.BatchNorm2d(outputs),
-        nn.ReLU(inplace=True),
-    )
-
-
-def _level(inputs: int, outputs: int) -> nn.Module:
-    return nn.Sequential(_conv(inputs, outputs), _conv(outputs, outputs))
-
-
 class CenterlineNet(nn.Module):
-    """(N, 1, H, W) ink in [0, 1] -> (N, 5, H, W) raw values, channels as in HEADS."""
+    """(N, 1, H, W) ink in [0, 1] -> (N, 5, H, W) raw values, channels as in HEADS.
 
-    def __init__(self, widths: tuple[int, ...] = WIDTHS) -> None:
+    Without norms the convolutions have biases instead: what a network with norms is exported as.
+    """
+
+    def __init__(self, widths: tuple[int, ...] = WIDTHS, norms: bool = True) -> None:
         super().__init__()
+
+        def conv(
+            inputs: int, outputs: int, kernel: int = 3, stride: int = 1, pad: int = 1
+        ) -> nn.Module:
+            return nn.Sequential(
+                nn.Conv2d(inputs, outputs, kernel, stride, pad, bias=not norms),
+                nn.BatchNorm2d(outputs) if norms else nn.Identity(),
+                nn.ReLU(inplace=True),
+            )
+
+        def level(inputs: int, outputs: int) -> nn.Module:
+            return nn.Sequential(conv(inputs, outputs), conv(outputs, outputs))
+
         pairs = list(pairwise(widths))
-        self.stem = _conv(1, widths[0], 4, 2, 1)
-        self.encode = nn.ModuleList(_level(w, w) for w in widths)
-        self.down = nn.ModuleList(_conv(a, b, 2, 2, 0) for a, b in pairs)
+        self.stem = conv(1, widths[0], 4, 2, 1)
+        self.encode = nn.ModuleList(level(w, w) for w in widths)
+        self.down = nn.ModuleList(conv(a, b, 2, 2, 0) for a, b in pairs)
         self.up = nn.ModuleList(nn.ConvTranspose2d(b, a, 2, 2) for a, b in pairs)
-        self.decode = nn.ModuleList(_level(2 * w, w) for w in widths[:-1])
+        self.decode = nn.ModuleList(level(2 * w, w) for w in widths[:-1])
         self.head = nn.ConvTranspose2d(widths[0], len(HEADS), 4, 2, 1)
         # Most of a page is paper: start from "no line".
         nn.init.constant_(self.head.bias, -3.0)

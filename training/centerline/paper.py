@@ -7,12 +7,14 @@ import numpy as np
 
 from .geometry import Array, Rng
 from .media import noise
+from .wear import wear
 
 
-def paper(rng: Rng, size: int, ink_level: float) -> Array:
-    """A (size, size) sheet of reflectance about 0.5..1, with print that is not to be traced.
+def paper(rng: Rng, size: int, ink_level: float, printed: float = 0.25) -> Array:
+    """A (size, size) sheet of reflectance about 0.3..1, with print that is not to be traced.
 
-    ink_level: how dark the drawing's ink is; ruled lines stay well below it.
+    ink_level: how dark the drawing's ink is; ruled lines stay well below it. printed: how likely
+    the sheet is to be ruled.
     """
     sheet = np.full((size, size), rng.uniform(0.72, 1.0), np.float32)
     kind = rng.random()
@@ -27,7 +29,9 @@ def paper(rng: Rng, size: int, ink_level: float) -> Array:
         sheet += rng.uniform(0.01, 0.06) * noise(rng, "cloud", size)
         specks = noise(rng, str(rng.choice(["grain", "tooth", "rough"])), size)
         sheet -= rng.uniform(0.03, 0.2) * np.clip(specks - rng.uniform(2.3, 3.2), 0, 1)
-    if rng.random() < 0.25:
+    if rng.random() < 0.2:
+        sheet *= wear(rng, size)
+    if rng.random() < printed:
         sheet *= 1 - print_on(rng, size, ink_level)
     for _ in range(rng.choice([0, 0, 0, 0, 1, 2])):
         sheet += _fold(rng, size)
@@ -50,7 +54,7 @@ def print_on(rng: Rng, size: int, ink_level: float, pitch: float | None = None) 
     if rng.random() < 0.3:
         x, y = y, x
     kind = rng.random() if pitch is None else 0.5
-    pitch = pitch or float(np.exp(rng.uniform(np.log(9), np.log(70))))
+    pitch = pitch or float(np.exp(rng.uniform(np.log(9), np.log(100))))
     half = rng.uniform(0.4, 1.1)
 
     def lines(v: Array, pitch: float) -> Array:
@@ -68,7 +72,7 @@ def print_on(rng: Rng, size: int, ink_level: float, pitch: float | None = None) 
             marks = np.maximum(marks * 0.6, np.maximum(lines(x, pitch * 5), lines(y, pitch * 5)))
     else:
         marks = rows * lines(x, pitch)
-    return marks * rng.uniform(0.08, 0.4) * min(1.0, ink_level)
+    return marks * rng.uniform(0.08, 0.55) * min(1.0, ink_level)
 
 
 def _fold(rng: Rng, size: int) -> Array:

@@ -10,6 +10,7 @@ from .geometry import Array, Library, Rng, Strokes, broken, invented, true_drawi
 from .media import MEDIA, Medium, Samples, draw, line_spacing, noise, sample
 from .paper import clean, paper, scan, shadow
 from .targets import MAX_HALF_WIDTH, Targets, targets
+from .wear import dust
 
 _MIN_SPACING = 2.7  # px; denser hatching is a tone, not lines
 _SEEN_OVER = 49  # samples of half a px
@@ -60,9 +61,13 @@ def page(
 
 
 def _compose(rng: Rng, library: Library, size: int, held_out: bool) -> list[tuple[Strokes, float]]:
-    """Up to five drawings, true ones and invented ones, over each other."""
-    if rng.random() < 0.03:
+    """Up to four drawings, true ones and invented ones, over each other."""
+    kind = rng.random()
+    if kind < 0.06:
         return []
+    if kind < 0.12:  # a nearly blank sheet
+        strokes, widest = true_drawing(rng, library, size, held_out, (0.1, 0.5))
+        return [(_sane(strokes, size), widest)] if strokes else []
     drawings = []
     for _ in range(rng.choice([1, 2, 2, 3, 4])):
         if rng.random() < 0.68:
@@ -149,7 +154,7 @@ def _photograph(rng: Rng, ink: Array, library: Library, size: int, held_out: boo
     """Ink on paper under a lamp, scanned: (size, size) float32 luminance."""
     drawn = ink[ink > 0.1]
     level = float(np.median(drawn)) if drawn.size > 50 else 0.5
-    sheet = paper(rng, size, level)
+    sheet = paper(rng, size, level, 0.25 if ink.mean() > 0.02 else 0.6)
     if rng.random() < 0.08:
         sheet *= 1 - _show_through(rng, library, size, held_out) * level
     if rng.random() < 0.08:  # a smudge: ink rubbed along one direction
@@ -159,6 +164,8 @@ def _photograph(rng: Rng, ink: Array, library: Library, size: int, held_out: boo
     if rng.random() < 0.06:  # eraser: a band in which a ghost of older lines stays
         ghost = np.roll(ink, rng.integers(20, size - 20, 2), (0, 1))
         sheet *= 1 - rng.uniform(0.01, 0.07) * cv2.GaussianBlur(ghost, (0, 0), 1.2)
+    if rng.random() < 0.1:
+        sheet *= 1 - dust(rng, ink)
     black = rng.uniform(0.0, 0.12)
     gray = sheet * (1 - ink) + black * ink
     if rng.random() < 0.5:

@@ -24,6 +24,7 @@ from .data import Pages, degrade, loader, split, validation_pages
 from .losses import CENTERLINE_LOSSES, total_loss
 from .metrics import page_figures, pooled
 from .model import WIDTHS, CenterlineNet
+from .restore import restored
 
 
 def main(arguments: list[str] | None = None) -> None:
@@ -45,7 +46,7 @@ def main(arguments: list[str] | None = None) -> None:
     add("--rate", type=float, default=2e-3, help="highest learning rate")
     add("--loss", default="bce_dice", choices=list(CENTERLINE_LOSSES))
     add("--widths", type=int, nargs="+", default=list(WIDTHS))
-    add("--start-from", type=Path, help="checkpoint whose weights a new run begins with")
+    add("--start-from", type=Path, help="checkpoint or ONNX file that a new run begins with")
     add("--every", type=int, default=500, help="steps between validations")
     train(parser.parse_args(arguments))
 
@@ -57,17 +58,16 @@ class Run:
         self.folder = options.run
         self.device = torch.device(options.device)
         torch.manual_seed(options.seed)
-        self.net = CenterlineNet(tuple(options.widths)).to(self.device)
-        self.net = self.net.to(memory_format=torch.channels_last)
+        if options.start_from:
+            self.net = restored(options.start_from).train()
+        else:
+            self.net = CenterlineNet(tuple(options.widths))
+        self.net = self.net.to(self.device, memory_format=torch.channels_last)
         self.mean = copy.deepcopy(self.net).eval().requires_grad_(False)
         self.optimiser = torch.optim.AdamW(self.net.parameters(), options.rate, weight_decay=1e-2)
         self.step, self.seconds = 0, 0.0
         if (self.folder / "checkpoint.pt").exists():
             self._load(self.folder / "checkpoint.pt")
-        elif options.start_from:
-            state = torch.load(options.start_from, map_location=self.device)
-            self.net.load_state_dict(state["mean"])
-            self.mean.load_state_dict(state["mean"])
 
     def _load(self, path: Path) -> None:
         state = torch.load(path, map_location=self.device)
