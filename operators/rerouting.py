@@ -37,7 +37,7 @@ def change(
     if not data.is_editable:
         raise InvoluteError("This drawing is linked from another file; make it local to change it.")
     trace = state.load(data, key)
-    new = how(trace.drawing)
+    new = state.settled(data, key, how(trace.drawing))
     pages = [drawing for _, drawing in gp.drawings_at(data, frame)]
     edits = []
     if (new.routing.partner != trace.drawing.routing.partner).any():

@@ -82,12 +82,10 @@ class _Splicer:
         for pieces in self.pieces.values():
             for piece in pieces:
                 edits[piece.page].removed.append(piece.index)
-        used: set[Run] = set()
         for index in strokes_through(self.new, self.changed):
             stroke = self.new.strokes[index]
             parts = list(runs_of(self.new, index, self.changed))
             sources = [self.runs.get(part.halves[0]) for part in parts]
-            used.update(source[0] for source in sources if source)
             origins = {source[0].stroke for source in sources if source}
             if origins and origins <= self.untouched:
                 pieces = [piece for origin in origins for piece in self.pieces[origin]]
@@ -96,11 +94,6 @@ class _Splicer:
                 continue
             for piece in self._spliced(stroke, parts, sources):
                 self._add(edits, piece, self._as_curves(piece, int(stroke.branches[0])))
-        # What the engine drops as a speck stays where the artist has worked on it.
-        for run in {run for run, _ in self.runs.values()} - used:
-            if run.stroke not in self.untouched:
-                for piece in self._cut(run):
-                    self._add(edits, piece, self._as_curves(piece, run.halves[0]))
         return edits
 
     # --- what is there ---

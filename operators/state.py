@@ -102,6 +102,18 @@ def stamp(data: bpy.types.ID, key: int) -> str:
     return entry["stamp"] if entry else ""
 
 
+def settled(data: bpy.types.ID, key: int, drawing: Drawing) -> Drawing:
+    """A changed drawing of that trace with the strokes that it will have when it is read again.
+
+    In a sequence strokes start and run as on the frame before; one that was rerouted and is back as
+    it was traced gets that start and direction back, too.
+    """
+    base = _base(_traces(data)[str(key)])
+    if not _differs_in_routing_only(base, drawing):
+        return drawing
+    return base.with_routing(drawing.routing.partner, drawing.routing.locked)
+
+
 def add(data: bpy.types.ID, drawing: Drawing, placement: Placement, source: str) -> int:
     """Store a new trace and return its key."""
     key = _free_key(data, drawing, source)

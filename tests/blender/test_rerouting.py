@@ -133,6 +133,58 @@ def test_strokes_that_run_the_other_way_are_found_again(bpy, part, touched):
             assert min(apart(points, stroke, closed) for points, closed in found) < 1.5
 
 
+@pytest.mark.parametrize("forget", [False, True])
+@pytest.mark.parametrize("touched", [False, True])
+@pytest.mark.parametrize("seed", range(3))
+def test_closed_strokes_that_start_elsewhere_are_found_again(bpy, part, seed, touched, forget):
+    """As in a sequence, where a closed stroke starts where it did on the frame before."""
+    random = np.random.default_rng(seed)
+    drawing = ring_and_lines(part)
+    strokes = [rolled(s, random.integers(len(s.points))) for s in drawing.strokes]
+    strokes = [turned(s) if random.random() < 0.5 else s for s in strokes]
+    obj, placement = make(bpy, part, replace(drawing, strokes=tuple(strokes)))
+    if touched:
+        move(page_of(obj), slice(None), (1e-3, 0, 0))
+    before = [(points.copy(), closed) for points, closed in strokes_in(part, obj, placement)]
+    whole = {j.index: j.pairs for j in drawing.junctions}
+    for number in range(10):
+        if forget:  # as after saving and opening again
+            part("operators.state")._decoded.clear()
+        junction = drawing.junctions[random.integers(len(drawing.junctions))]
+        pairs = junction.alternatives[random.integers(len(junction.alternatives))].pairs
+        wanted = whole if number % 3 == 2 else {junction.index: pairs}
+
+        def reroute(d, wanted=wanted):
+            for index, joined in wanted.items():
+                d = d.reroute(index, joined)
+            return d
+
+        change(part, obj, reroute)
+        found, strokes = strokes_in(part, obj, placement), drawing_of(part, obj).strokes
+        assert len(found) == len(strokes)
+        for stroke in strokes:
+            assert min(apart(points, stroke, closed) for points, closed in found) < 1.5
+        if wanted is whole and not touched:  # even the starting points are the old ones
+            for points, closed in before:
+                assert any(c == closed and same_points(p, points) for p, c in found)
+
+
+def same_points(a, b):
+    return len(a) == len(b) and np.abs(a - b).max() < 2e-3
+
+
+def rolled(stroke, by):
+    """The same stroke; a closed one starts that many points farther on."""
+    if not stroke.closed:
+        return stroke
+    return replace(
+        stroke,
+        points=np.roll(stroke.points, -by, axis=0),
+        widths=np.roll(stroke.widths, -by),
+        opacity=np.roll(stroke.opacity, -by),
+    )
+
+
 def turned(stroke):
     """The same stroke walked the other way."""
     return replace(
