@@ -52,14 +52,10 @@ class Piece:
         return replace(self, points=points, along=self.along[choice])
 
 
-def piece_of(
-    page: Curves, number: int, index: int, begin: tuple[float, int], whole: float
-) -> Piece | None:
+def piece_of(page: Curves, number: int, index: int, whole: float) -> Piece | None:
     """A stroke in the direction in which it was traced.
 
     Args:
-        begin: where on the traced stroke the walk began by which this one's lengths count, and
-            its direction; (0, 1) when it is the same walk.
         whole: length of the traced stroke, where a closed one begins again.
 
     Returns:
@@ -70,7 +66,7 @@ def piece_of(
         number,
         index,
         {name: Column(c.type, c.values[part]) for name, c in page.points.items()},
-        begin[0] + begin[1] * page.point(ALONG)[part].astype(np.float64),
+        page.point(ALONG)[part].astype(np.float64),
         bool(page.curve("cyclic")[index]),
         page.curve("curve_type", 1)[index] == BEZIER,
     )
@@ -79,8 +75,6 @@ def piece_of(
         piece = replace(piece, points=piece.points | dict.fromkeys(list(_OPPOSITE)[:2], places))
     if np.count_nonzero(np.diff(piece.along) < 0) > 0.5 * (len(piece) - 1):
         piece = reversed_piece(piece, piece.along[::-1])
-    if begin != (0.0, 1) and piece.cyclic:
-        piece = replace(piece, along=np.mod(piece.along, whole))
     if piece.cyclic:  # its first point may have been moved along it
         piece = piece.rows(np.roll(np.arange(len(piece)), -int(np.argmin(piece.along))))
         if piece.along[-1] - piece.along[0] > whole + EPSILON:

@@ -67,22 +67,6 @@ def runs_of(drawing: Drawing, index: int, changed: Array) -> Iterator[Run]:
         yield Run(index, tuple(part), start, end)
 
 
-def beginning(graph: PlanarGraph, stroke: Stroke, half: int) -> tuple[float, int]:
-    """Where and which way a stroke was walked that began with this half-branch of it.
-
-    The same stroke may be walked from its other end, a closed one from any junction.
-
-    Returns:
-        the length along `stroke` at which that walk began, and 1 or -1 for its direction.
-    """
-    branches = stroke.branches.tolist()
-    if half == branches[0]:
-        return 0.0, 1
-    if half in branches:
-        return _lengths_at(graph, stroke, [branches.index(half)])[0], 1
-    return _lengths_at(graph, stroke, [branches.index(half ^ 1) + 1])[0], -1
-
-
 def whole_length(stroke: Stroke) -> float:
     """The length of a stroke's polygon in pixels, with the closing side."""
     return float(_corner_lengths(stroke)[-1])

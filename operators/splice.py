@@ -16,7 +16,7 @@ from ..engine import InvoluteError
 from .curves import ALONG, BEZIER, HALF, POLY, TRACE, Column, Curves, column, stroke_curves
 from .pieces import EPSILON, Piece, cut, join, piece_of, reversed_piece
 from .placement import Placement
-from .runs import Run, beginning, changed_halves, runs_of, strokes_through, whole_length
+from .runs import Run, changed_halves, runs_of, strokes_through, whole_length
 
 if TYPE_CHECKING:
     from ..engine import Drawing, Stroke
@@ -108,8 +108,7 @@ class _Splicer:
             for curve in np.flatnonzero(mine).tolist():
                 index = owner[int(halves[curve]) >> 1]
                 stroke = self.old.strokes[index]
-                begin = beginning(self.old.graph, stroke, int(halves[curve]))
-                piece = piece_of(page, number, curve, begin, whole_length(stroke))
+                piece = piece_of(page, number, curve, whole_length(stroke))
                 if piece is None:
                     raise InvoluteError(_UNTELLABLE)
                 # A copy that the artist made lies over the original: it is nobody's piece.
