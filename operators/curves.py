@@ -30,6 +30,8 @@ Array = np.ndarray
 POLY, BEZIER = 1, 2  # Blender's numbers for the types of a curve
 TRACE, HALF, ALONG = ".involute_trace", ".involute_half", ".involute_along"
 
+WEIGHT = "WEIGHT"  # no attribute but a vertex group: see `vertex_weights`
+
 # What foreach_set calls the value, its NumPy type and its length, for each type of attribute.
 FORMATS: dict[str, tuple[str, type, int]] = {
     "FLOAT": ("value", np.float32, 1),
@@ -42,6 +44,7 @@ FORMATS: dict[str, tuple[str, type, int]] = {
     "BYTE_COLOR": ("color", np.float32, 4),
     "INT32_2D": ("value", np.int32, 2),
     "QUATERNION": ("value", np.float32, 4),
+    WEIGHT: ("", np.float32, 1),
 }
 
 

@@ -11,9 +11,21 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
-from .curves import FORMATS, HALF, POLY, TRACE, Column, Curves, bridge_holes, column, stroke_curves
+from .curves import (
+    FORMATS,
+    HALF,
+    POLY,
+    TRACE,
+    WEIGHT,
+    Column,
+    Curves,
+    bridge_holes,
+    column,
+    stroke_curves,
+)
 from .inks import ink_name
 from .placement import Placement
+from .vertex_weights import set_weights
 
 if TYPE_CHECKING:
     from ..engine import Drawing, Stroke
@@ -183,6 +195,9 @@ def _set_tail(drawing: object, columns: dict[str, Column], start: int, domain: s
     """Write attributes for the elements from `start` on."""
     for name, made in columns.items():
         if name == "curve_type":  # Blender counts the types: only set_types may change them
+            continue
+        if made.type == WEIGHT:
+            set_weights(drawing, name, start, made)
             continue
         key = FORMATS[made.type][0]
         attribute = drawing.attributes.get(name)

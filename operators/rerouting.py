@@ -13,6 +13,7 @@ from . import grease_pencil as gp
 from . import state
 from .curves import TRACE, column, concatenate
 from .splice import plan
+from .vertex_weights import with_weights
 
 if TYPE_CHECKING:
     import bpy
@@ -41,7 +42,8 @@ def change(
     pages = [drawing for _, drawing in gp.drawings_at(data, frame)]
     edits = []
     if (new.routing.partner != trace.drawing.routing.partner).any():
-        edits = plan(trace.drawing, new, [gp.read(page) for page in pages], key, trace.placement)
+        there = with_weights(data, frame, [gp.read(page) for page in pages])
+        edits = plan(trace.drawing, new, there, key, trace.placement)
     trace = state.separate(data, frame, trace)
     for page, edit in zip(pages, edits, strict=False):
         if edit.removed or edit.added:

@@ -274,6 +274,44 @@ def test_moved_points_and_looks_survive_split_and_join(bpy, part):
             assert (np.linalg.norm(np.diff(points, axis=0), axis=1) > 0).all()
 
 
+def test_vertex_weights_survive_split_and_join(bpy, part):
+    """Painted weights follow their points, also on a hidden layer and beside a second group."""
+    drawing = cross(part)
+    obj, _ = make(bpy, part, drawing)
+    page, curves = page_of(obj), curves_of(part, obj)
+    shade = (curves.point("position")[:, 0] / 3 + 0.4).astype(np.float32)  # 0.0 .. 0.9
+    for name, weights in (("Arm", shade), ("Tip", np.where(shade > 0.6, 0.5, 0.0))):
+        obj.vertex_groups.new(name=name)
+        inside = np.flatnonzero(weights > 0)
+        page.set_vertex_weights(
+            vertex_group_name=name,
+            indices=inside.tolist(),
+            weights=weights[inside].tolist(),
+            assign_mode="REPLACE",
+        )
+    obj.data.layers["Black"].hide = True
+    before = [len(kind) for kind in (bpy.data.scenes, bpy.data.objects, bpy.data.node_groups)]
+
+    def check(count):
+        gp = part("operators.grease_pencil")
+        pages = [gp.read(page) for _, page in gp.drawings_at(obj.data, 1)]
+        (now,) = part("operators.vertex_weights").with_weights(obj.data, 1, pages)
+        assert len(now) == count
+        places = now.point("position")[:, 0] / 3 + 0.4
+        np.testing.assert_allclose(now.point("vertex group Arm"), places, atol=2e-3)
+        tip = now.point("vertex group Tip")
+        assert tip[places > 0.7].min() == pytest.approx(0.5)
+        assert tip[places < 0.5].max() == 0
+
+    check(3)
+    change(part, obj, lambda d: d.reroute(0, ()))
+    check(5)
+    change(part, obj, lambda d: d.reroute(0, drawing.junctions[0].pairs))
+    check(3)
+    after = [len(kind) for kind in (bpy.data.scenes, bpy.data.objects, bpy.data.node_groups)]
+    assert after == before
+
+
 def test_subdivided_strokes_split_where_the_junction_was(bpy, part):
     drawing = cross(part)
     obj, placement = make(bpy, part, drawing)
