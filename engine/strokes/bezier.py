@@ -2,7 +2,8 @@
 
 Least squares with given end tangents and Newton steps for the parameters (Schneider, "An Algorithm
 for Automatically Fitting Digitized Curves", Graphics Gems 1990), for all segments at once; those
-that stray too far are split at their worst sample, round by round.
+that stray too far are split at their worst sample, round by round. Splitting leaves more anchors
+than are needed: at last every other one is tried to do without.
 """
 
 from __future__ import annotations
@@ -13,7 +14,8 @@ from .simplify import runs, worst_of
 
 Array = np.ndarray
 
-_NEWTON = 4  # steps that move the parameters to the nearest points of the curve
+_NEWTON = 6  # steps that move the parameters to the nearest points of the curve
+_MERGES = 6  # rounds of trying to do without anchors
 _EVEN = 16  # rounds after which segments are halved
 
 
@@ -50,7 +52,26 @@ def fit(
             worst = (first + last) // 2
         anchor[worst] = True
         first, last = np.concatenate([first, worst]), np.concatenate([worst, last])
+    for turn in range(_MERGES):
+        spare = _every_other(anchor, keep, turn % 2)
+        stops = np.flatnonzero(anchor)
+        place = np.searchsorted(stops, spare)
+        first, last = stops[place - 1], stops[place + 1]
+        if not len(first):
+            continue
+        inner_a, inner_b, _, error = _fit_all(points, ahead, back, first, last, tolerance)
+        good = error <= tolerance
+        anchor[spare[good]] = False
+        right[first[good]], left[last[good]] = inner_a[good], inner_b[good]
     return anchor, np.stack([left, right], 1)
+
+
+def _every_other(anchor: Array, keep: Array, odd: int) -> Array:
+    """The anchors that need not be, of neighbours only one: counted from the last that must be."""
+    stops = np.flatnonzero(anchor)
+    place = np.arange(len(stops))
+    must = np.maximum.accumulate(np.where(keep[stops], place, 0))
+    return stops[(place > must) & ((place - must) % 2 == odd)]
 
 
 def _tangents(points: Array, corner: Array) -> tuple[Array, Array]:

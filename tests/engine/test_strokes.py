@@ -11,6 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from involute.engine import Settings
 from involute.engine.strokes import Page, build, walk
+from involute.engine.strokes.bezier import fit
 from involute.engine.strokes.simplify import simplify
 from involute.engine.values import PlanarGraph, Stroke
 from involute.training.routing.planar import graph_from_strokes
@@ -145,6 +146,14 @@ def test_curves_stay_within_the_tolerance(scribble, seed: int, tolerance: float)
         assert b.handles.shape == (len(b.points), 2, 2)
         line = shapely.LineString(_outline(b))
         assert shapely.distance(shapely.points(a.points), line).max() <= tolerance + 0.05
+
+
+def test_curves_keep_no_anchor_that_is_not_needed() -> None:
+    x = np.arange(800.0)
+    wave = np.stack([x, 50 * np.sin(2 * np.pi * x / 300)], 1)
+    ends = (x == 0) | (x == 799)
+    anchors, _ = fit(wave, np.zeros(800, int), ends, ends, 0.5)
+    assert anchors.sum() <= 7  # splitting alone leaves 8
 
 
 def test_a_line_through_a_crossing_has_no_kink() -> None:
