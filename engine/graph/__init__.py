@@ -9,6 +9,7 @@
     curves      smooth curves through a blob
     junctions   the graph with its junctions where these curves meet
     ends        free ends where the line ends
+    gaps        lines go on where the pen broke off
     smoothing   even, smooth points
                                                                     all of that is build_graph
     measure     width, darkness and colour of the ink along every branch
@@ -29,6 +30,7 @@ from ..values import LineMaps, PlanarGraph
 from .cleanup import prune
 from .dust import sweep
 from .ends import place_ends
+from .gaps import bridge
 from .junctions import resolve
 from .measure import measure
 from .ridge import Ridge
@@ -56,7 +58,7 @@ def build_graph(maps: LineMaps, pen_width: float, settings: Settings) -> PlanarG
     graph = prune(contract(_pixel_graph(chains, ridge), 2.0), 3.0, maps.endpoints)
     graph = split_bends(open_tips(graph, ridge.value, 2.0))
     graph = even(resolve(graph, ridge.value, 2.0))
-    graph = place_ends(graph, ridge.value)
+    graph = bridge(place_ends(graph, ridge.value), ridge.value, pen_width)
     graph = join(even(smooth(even(graph), round(10 * settings.smoothing))))
     # A curve that was continued must not leave the page.
     page = np.array(ridge.value.shape[::-1], np.float32)

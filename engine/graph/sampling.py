@@ -18,6 +18,8 @@ def sample(image: Array, points: Array) -> Array:
     shape = points.shape[:-1]
     flat = points.reshape(-1, 2).astype(np.float32) - np.float32(0.5)
     count = len(flat)
+    if count == 0:
+        return np.zeros((*shape, *image.shape[2:]), image.dtype)
     rows = max(1, -(-count // _COLUMNS))
     padded = np.zeros((rows * _COLUMNS, 2), np.float32) if rows > 1 else flat
     padded[:count] = flat

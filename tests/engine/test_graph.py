@@ -175,3 +175,21 @@ def test_dots_are_not_lost(length: float) -> None:
     graph = graph_of(*dots)
     assert graph.branch_count == 2
     assert not junction_degrees(graph)
+
+
+@pytest.mark.parametrize("angle", [0.0, 33.0, 77.0])
+def test_a_small_gap_in_a_line_is_bridged(angle: float) -> None:
+    graph = graph_of(ray(angle, -40, -1.9), ray(angle, 2.0, 40))
+    assert graph.branch_count == 1
+    assert distance_to(ray(angle, -40, 40), graph.points).max() < 0.3
+
+
+def test_dashes_stay_dashes() -> None:
+    dashes = [ray(10.0, start, start + 9) for start in range(-45, 45, 15)]
+    assert graph_of(*dashes).branch_count == len(dashes)
+
+
+def test_ends_that_only_come_near_each_other_stay_apart() -> None:
+    parallel = [np.array([[20.0, 30.0], [60.0, 30.0]]), np.array([[60.0, 33.5], [100.0, 33.5]])]
+    corner = [np.array([[20.0, 70.0], [60.0, 70.0]]), np.array([[62.5, 72.5], [62.5, 110.0]])]
+    assert graph_of(*parallel, *corner).branch_count == 4

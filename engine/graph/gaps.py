@@ -1,0 +1,101 @@
+"""Lines that the pen broke off for a moment go on.
+
+A dry pen, rough paper or a worn print leaves gaps in a line. Two free ends that look at each other
+across no more than about the width of the pen are one line; the stems of a dashed line or of
+hatching are farther apart than that. (The paper leaves gaps to its network.)
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from ..values import PlanarGraph
+from .curves import pairs_within
+from .ridge import CLEAR, PEAK
+from .sampling import sample
+from .topology import lengths
+
+Array = np.ndarray
+
+WIDEST = 2.0  # pen widths between the ends of two centerlines: a gap of one pen width in the ink
+LEAST = 3.0  # px, bridged however fine the pen is
+BACK = 8  # points that tell which way an end looks
+STRAIGHT = np.cos(np.radians(35.0))  # how far two ends may turn to meet
+ASIDE = 0.35  # px to the side for every px of the gap, and half a px more
+
+
+def bridge(graph: PlanarGraph, value: Array, pen_width: float) -> PlanarGraph:
+    """Add a branch across every small gap between two free ends that run on into each other.
+
+    Args:
+        graph: points about 1 px apart.
+        value: (H, W) the smoothed centerline map.
+        pen_width: typical width of a line, px.
+
+    Returns:
+        The graph with more branches; the ends they link have degree two now.
+    """
+    free = np.flatnonzero(graph.degrees[graph.half_vertex] == 1)
+    reach = max(LEAST, WIDEST * pen_width)
+    tips, outward = _looks(graph, free)
+    a, b = _near(tips, reach).T
+    # Both ends of one short piece look away from each other, but see each other all the same.
+    a, b = (v[free[a] >> 1 != free[b] >> 1] for v in (a, b))
+    way = tips[b] - tips[a]
+    gap = np.hypot(*way.T)
+    ahead = np.minimum((outward[a] * way).sum(1), -(outward[b] * way).sum(1))
+    aside = np.maximum(_cross(outward[a], way), _cross(outward[b], way))
+    facing = -(outward[a] * outward[b]).sum(1)
+    shorter = np.minimum(*(lengths(graph)[free[v] >> 1] for v in (a, b)))
+    fits = (facing > STRAIGHT) & (ahead > 0) & (aside < ASIDE * gap + 0.5)
+    # What is bright in the middle is another line.
+    fits &= sample(value, (tips[a] + tips[b]) / 2) < CLEAR * PEAK
+    fits &= (gap < reach) & (gap < 2 * shorter + LEAST)
+    a, b, cost = a[fits], b[fits], (gap + 2 * aside)[fits]
+    best = _mutual(a, b, cost, len(free))
+    links = graph.half_vertex[free[np.stack([a[best], b[best]], -1)]]
+    if not len(links):
+        return graph
+    offsets = graph.offsets[-1] + 2 * np.arange(1, len(links) + 1)
+    return replace(
+        graph,
+        points=np.concatenate([graph.points, graph.vertices[links].reshape(-1, 2)]),
+        offsets=np.concatenate([graph.offsets, offsets]).astype(np.int32),
+        ends=np.concatenate([graph.ends, links]).astype(np.int32),
+    )
+
+
+def _looks(graph: PlanarGraph, free: Array) -> tuple[Array, Array]:
+    """Where free half-branches end (N, 2), and the unit direction in which each would go on."""
+    branch, last = free >> 1, free & 1
+    tip = np.where(last, graph.offsets[branch + 1] - 1, graph.offsets[branch])
+    room = np.minimum(np.diff(graph.offsets)[branch] - 1, BACK)
+    inner = graph.points[tip + np.where(last, -1, 1) * room].astype(np.float64)
+    tips = graph.points[tip].astype(np.float64)
+    outward = tips - inner
+    return tips, outward / np.maximum(np.hypot(*outward.T), 1e-9)[:, None]
+
+
+def _near(points: Array, reach: float) -> Array:
+    """(K, 2) all pairs of points (N, 2) at most `reach` px apart, and some others."""
+    found = [np.zeros((0, 2), np.int64)]
+    # Of four grids, shifted by half a cell, one has both points of a pair in one cell.
+    for shift in np.stack(np.meshgrid([0, reach], [0, reach]), -1).reshape(-1, 2):
+        cell = ((points + shift) // (2 * reach)).astype(np.int64)
+        group = np.unique(cell, axis=0, return_inverse=True)[1].reshape(-1)
+        found.append(pairs_within(group))
+    return np.unique(np.sort(np.concatenate(found), axis=1), axis=0)
+
+
+def _cross(a: Array, b: Array) -> Array:
+    return np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
+
+
+def _mutual(a: Array, b: Array, cost: Array, count: int) -> Array:
+    """Indices of the pairs that are the cheapest one for both of their ends."""
+    least = np.full(count, np.inf)
+    np.minimum.at(least, a, cost)
+    np.minimum.at(least, b, cost)
+    return np.flatnonzero((cost <= least[a]) & (cost <= least[b]))
