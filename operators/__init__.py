@@ -5,6 +5,7 @@ from __future__ import annotations
 from importlib import import_module
 
 _VERBS = (
+    "tracing",
     "trace",
     "import_scan",
     "use_defaults",

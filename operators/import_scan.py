@@ -3,28 +3,18 @@
 from __future__ import annotations
 
 import bpy
-from bpy.props import CollectionProperty, StringProperty
-from bpy_extras.io_utils import ImportHelper
 
-from .sources import SUFFIXES
+from .file_choice import FileChoice
+from .placing import PlacingSettings, placing_values
+from .trace import INVOLUTE_OT_trace
 from .trace_settings import TraceSettings, as_values
 
 
-class INVOLUTE_OT_import_scan(TraceSettings, bpy.types.Operator, ImportHelper):
+class INVOLUTE_OT_import_scan(FileChoice, PlacingSettings, TraceSettings, bpy.types.Operator):
     """Trace scanned drawings from files as Grease Pencil strokes"""
 
     bl_idname = "involute.import_scan"
     bl_label = "Trace Scanned Drawings"
-    bl_options = {"REGISTER"}  # the trace that it starts is the step to undo
-
-    filename_ext = ""
-    filter_glob: StringProperty(
-        default=";".join(f"*{suffix}" for suffix in SUFFIXES), options={"HIDDEN"}
-    )
-    directory: StringProperty(subtype="DIR_PATH", options={"SKIP_SAVE", "HIDDEN"})
-    files: CollectionProperty(
-        type=bpy.types.OperatorFileListElement, options={"SKIP_SAVE", "HIDDEN"}
-    )
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         if self.filepath or self.files:  # dropped
@@ -32,25 +22,17 @@ class INVOLUTE_OT_import_scan(TraceSettings, bpy.types.Operator, ImportHelper):
         return super().invoke(context, event)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        try:
-            result = bpy.ops.involute.trace(
-                "EXEC_DEFAULT" if bpy.app.background else "INVOKE_DEFAULT",
-                filepath=self.filepath,
-                directory=self.directory,
-                files=[{"name": file.name} for file in self.files],
-                **as_values(self),
-            )
-        except RuntimeError as problem:  # what the trace reported
-            self.report({"ERROR"}, str(problem).strip().removeprefix("Error: "))
-            return {"CANCELLED"}
-        return {"CANCELLED"} if result == {"CANCELLED"} else {"FINISHED"}
+        return self.hand_to(
+            bpy.ops.involute.trace,
+            filepath=self.filepath,
+            directory=self.directory,
+            files=[{"name": name} for name in self.names],
+            **placing_values(self),
+            **as_values(self),
+        )
 
     def draw(self, context: bpy.types.Context) -> None:
-        from .settings_layout import draw_settings
-
-        self.layout.use_property_split = True
-        self.layout.use_property_decorate = False
-        draw_settings(self.layout, self)
+        INVOLUTE_OT_trace.draw(self, context)
 
 
 CLASSES = (INVOLUTE_OT_import_scan,)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from math import pi
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from bpy.props import EnumProperty, FloatProperty
 from mathutils import Matrix
@@ -40,6 +40,11 @@ class PlacingSettings:
         min=0.0,
         soft_max=10000.0,
     )
+
+
+def placing_values(source: PlacingSettings) -> dict[str, Any]:
+    """The settings as operators take them."""
+    return {name: getattr(source, name) for name in PlacingSettings.__annotations__}
 
 
 def stand(

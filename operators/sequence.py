@@ -7,20 +7,21 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import bpy
-from bpy.props import BoolProperty, CollectionProperty, IntProperty, StringProperty
-from bpy_extras.io_utils import ImportHelper
+from bpy.props import BoolProperty, IntProperty, StringProperty
 
 from ..engine import InvoluteError
 from ..engine.sequence import Frame
 from . import grease_pencil as gp
-from . import state, worker
+from . import state
+from .file_choice import ChosenFiles, FileChoice
 from .placement import Placement, front_view, on_empty
-from .placing import PlacingSettings, stand
+from .placing import PlacingSettings, placing_values, stand
 from .playing import frames_of_empty, frames_of_files, plays_frames
-from .sequence_job import Result, SequenceJob, parts_folder
-from .sources import SUFFIXES
+from .sequence_job import SequenceJob, parts_folder
+from .settings_layout import draw_placing, draw_sequence, draw_settings
 from .trace import new_object
 from .trace_settings import TraceSettings, as_values, engine_settings
+from .tracing import Tracing
 
 
 class SequenceSettings:
@@ -60,22 +61,19 @@ class SequenceSettings:
 
 
 class INVOLUTE_OT_trace_sequence(
-    SequenceSettings, PlacingSettings, TraceSettings, bpy.types.Operator
+    Tracing, ChosenFiles, SequenceSettings, PlacingSettings, TraceSettings, bpy.types.Operator
 ):
     """Turn numbered drawings into keyframes of one Grease Pencil object, in the background"""
 
     bl_idname = "involute.trace_sequence"
     bl_label = "Trace Sequence"
-    bl_options = {"REGISTER", "UNDO"}
+    escape_cancels = False  # the artist goes on working, and presses it for other reasons
 
     directory: StringProperty(
         name="Folder",
         description="Folder of numbered drawings; empty for what the active image Empty plays",
         subtype="DIR_PATH",
         options={"SKIP_SAVE"},
-    )
-    files: CollectionProperty(
-        type=bpy.types.OperatorFileListElement, options={"SKIP_SAVE", "HIDDEN"}
     )
     resume: BoolProperty(
         name="Only What Changed",
@@ -85,61 +83,14 @@ class INVOLUTE_OT_trace_sequence(
         options={"SKIP_SAVE"},
     )
 
-    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        if bpy.app.background:
-            return self.execute(context)
-        if worker.current is not None:
-            self.report({"ERROR"}, "Another trace is running; wait for it or cancel it.")
-            return {"CANCELLED"}
-        try:
-            worker.current = self._begin(context)
-        except InvoluteError as problem:
-            self.report({"ERROR"}, str(problem))
-            return {"CANCELLED"}
-        worker.current.start()
-        self._timer = context.window_manager.event_timer_add(0.2, window=context.window)
-        context.window_manager.modal_handler_add(self)
-        return {"RUNNING_MODAL"}
-
-    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        # Escape is not listened to: the artist goes on working, and presses it for other reasons.
-        if event.type != "TIMER":
-            return {"PASS_THROUGH"}
-        job = worker.current
-        alive = job.running  # before the queue is read: what comes after is read next time
-        self._take(context, job.results())
-        _redraw_sidebars(context)
-        if alive:
-            return {"PASS_THROUGH"}
-        self._stop(context)
-        return self._finish(context, job)
-
-    def cancel(self, context: bpy.types.Context) -> None:
-        """Blender itself ends the operator, for example when a file is opened."""
-        worker.current.cancel()
-        self._stop(context)
-
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        try:
-            job = self._begin(context)
-        except InvoluteError as problem:
-            self.report({"ERROR"}, str(problem))
-            return {"CANCELLED"}
-        job.run()
-        self._take(context, job.results())
-        return self._finish(context, job)
-
     def draw(self, context: bpy.types.Context) -> None:
-        from .settings_layout import draw_placing, draw_sequence, draw_settings
-
         self.layout.use_property_split = True
         self.layout.use_property_decorate = False
         draw_sequence(self.layout, self)
         draw_placing(self.layout, self)
         draw_settings(self.layout, self)
 
-    def _begin(self, context: bpy.types.Context) -> SequenceJob:
-        """Read all that Blender knows; what then runs needs nothing of it."""
+    def begin(self, context: bpy.types.Context) -> SequenceJob:
         self._name, self._empty, self._target = "", "", ""
         self._placement: Placement | None = None
         self._written, self._kept, self._failed = 0, 0, []
@@ -147,8 +98,7 @@ class INVOLUTE_OT_trace_sequence(
         empty = context.active_object
         if self.directory:
             folder = Path(bpy.path.abspath(self.directory))
-            names = [file.name for file in self.files if file.name]
-            frames = frames_of_files(folder, names, **options)
+            frames = frames_of_files(folder, self.names, **options)
             self._name = folder.name or "Sequence"
         elif plays_frames(empty):
             frames = frames_of_empty(empty, **options)
@@ -171,9 +121,9 @@ class INVOLUTE_OT_trace_sequence(
             follow=self.follow,
         )
 
-    def _take(self, context: bpy.types.Context, results: Sequence[Result]) -> None:
+    def take(self, context: bpy.types.Context, job: SequenceJob) -> None:
         """Write the keyframes that have come."""
-        for frame, drawing, unchanged in results:
+        for frame, drawing, unchanged in job.results():
             if isinstance(drawing, InvoluteError):
                 self._failed.append(frame)
                 self.report({"WARNING"}, f"Frame {frame}: {drawing}")
@@ -205,7 +155,7 @@ class INVOLUTE_OT_trace_sequence(
         self._target = obj.name
         return obj
 
-    def _finish(self, context: bpy.types.Context, job: SequenceJob) -> set[str]:
+    def finish(self, context: bpy.types.Context, job: SequenceJob) -> set[str]:
         if job.problem:
             self.report({"ERROR"}, job.problem)
         if not self._written and not self._kept:
@@ -224,47 +174,27 @@ class INVOLUTE_OT_trace_sequence(
         self.report({"INFO"}, said + (", then cancelled" if job.cancelled else ""))
         return {"FINISHED"}
 
-    def _stop(self, context: bpy.types.Context) -> None:
-        context.window_manager.event_timer_remove(self._timer)
-        worker.current = None
-        _redraw_sidebars(context)
-
 
 class INVOLUTE_OT_import_sequence(
-    SequenceSettings, TraceSettings, bpy.types.Operator, ImportHelper
+    FileChoice, SequenceSettings, PlacingSettings, TraceSettings, bpy.types.Operator
 ):
     """Choose a folder of numbered drawings, or some of them, and trace them as keyframes"""
 
     bl_idname = "involute.import_sequence"
     bl_label = "Trace Drawing Sequence"
-    bl_options = {"REGISTER"}  # the trace that it starts is the step to undo
-
-    filename_ext = ""
-    filter_glob: StringProperty(
-        default=";".join(f"*{suffix}" for suffix in SUFFIXES), options={"HIDDEN"}
-    )
-    directory: StringProperty(subtype="DIR_PATH", options={"SKIP_SAVE", "HIDDEN"})
-    files: CollectionProperty(
-        type=bpy.types.OperatorFileListElement, options={"SKIP_SAVE", "HIDDEN"}
-    )
 
     def execute(self, context: bpy.types.Context) -> set[str]:
-        own = (*SequenceSettings.__annotations__, *PlacingSettings.__annotations__)
-        options = {name: getattr(self, name) for name in own}
-        names = [file.name for file in self.files if file.name]
-        try:
-            result = bpy.ops.involute.trace_sequence(
-                "EXEC_DEFAULT" if bpy.app.background else "INVOKE_DEFAULT",
-                directory=self.directory or str(Path(self.filepath).parent),
-                # One file alone stands for all that are numbered like it.
-                files=[{"name": name} for name in names] if len(names) > 1 else [],
-                **options,
-                **as_values(self),
-            )
-        except RuntimeError as problem:  # what the trace reported
-            self.report({"ERROR"}, str(problem).strip().removeprefix("Error: "))
-            return {"CANCELLED"}
-        return {"CANCELLED"} if result == {"CANCELLED"} else {"FINISHED"}
+        sequence = {name: getattr(self, name) for name in SequenceSettings.__annotations__}
+        # One file alone stands for all that are numbered like it.
+        names = self.names if len(self.names) > 1 else []
+        return self.hand_to(
+            bpy.ops.involute.trace_sequence,
+            directory=self.folder,
+            files=[{"name": name} for name in names],
+            **sequence,
+            **placing_values(self),
+            **as_values(self),
+        )
 
     def draw(self, context: bpy.types.Context) -> None:
         INVOLUTE_OT_trace_sequence.draw(self, context)
@@ -288,13 +218,6 @@ def _cache() -> Path:
         )
     except ValueError:
         return Path(tempfile.gettempdir(), "involute-sequences")
-
-
-def _redraw_sidebars(context: bpy.types.Context) -> None:
-    for window in context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type == "VIEW_3D":
-                area.tag_redraw()
 
 
 CLASSES = (INVOLUTE_OT_trace_sequence, INVOLUTE_OT_import_sequence)

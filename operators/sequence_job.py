@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Sequence
 from contextlib import closing, suppress
 from hashlib import blake2b
@@ -12,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from ..engine import Cancelled, InvoluteError, Settings
 from ..engine.sequence import Frame
+from .job import Job
 
 if TYPE_CHECKING:
     from ..engine import Drawing
@@ -20,37 +20,19 @@ if TYPE_CHECKING:
 Result = tuple[int, "Drawing | InvoluteError", bool]
 
 
-class SequenceJob:
-    """Traces frames in parallel processes; touches nothing of Blender.
-
-    stage, fraction, running, cancel(): as of `worker.Worker`, for the sidebar.
-    """
+class SequenceJob(Job):
+    """Traces frames in parallel processes."""
 
     def __init__(
         self, frames: Sequence[Frame], settings: Settings, *, jobs: int, parts: Path, follow: bool
     ) -> None:
         self.frames = list(frames)
-        self.stage = f"0 of {len(self.frames)} frames"
-        self.fraction = 0.0
-        self.cancelled = False
-        self.problem = ""
+        super().__init__(self._progress(0))
         self._results: SimpleQueue[Result] = SimpleQueue()
         self._kept: set[int] = set()
         self._done = 0
         self._options = {"jobs": jobs, "parts": parts, "follow": follow}
         self._settings = settings
-        self._thread = threading.Thread(target=self.run, name="involute", daemon=True)
-
-    def start(self) -> None:
-        self._thread.start()
-
-    def cancel(self) -> None:
-        """Ask to stop; what is in hand is given up as soon as an image is finished."""
-        self.cancelled = True
-
-    @property
-    def running(self) -> bool:
-        return self._thread.is_alive()
 
     def results(self) -> list[Result]:
         """What came since the last call: (frame, drawing or problem, not traced anew)."""
@@ -60,37 +42,27 @@ class SequenceJob:
                 found.append(self._results.get_nowait())
         return found
 
-    def run(self) -> None:
-        """Trace all frames; never raises."""
+    def work(self) -> None:
         from ..engine.sequence import trace_sequence  # brings in OpenCV
 
-        try:
-            drawings = trace_sequence(
-                self.frames, self._settings, progress=self._tick, **self._options
-            )
-            with closing(drawings):
-                for frame, drawing in drawings:
-                    self._results.put((frame, drawing, frame in self._kept))
-                    if self.cancelled:
-                        return
-        except Cancelled:
-            pass
-        except InvoluteError as problem:
-            self.problem = str(problem)
-        except Exception as problem:  # a defect of ours must not leave the interface waiting
-            import traceback
-
-            traceback.print_exc()
-            self.problem = f"Tracing failed unexpectedly ({problem!r}); please report it."
+        drawings = trace_sequence(self.frames, self._settings, progress=self._tick, **self._options)
+        with closing(drawings):
+            for frame, drawing in drawings:
+                self._results.put((frame, drawing, frame in self._kept))
+                if self.cancelled:
+                    return
 
     def _tick(self, frame: Frame, outcome: Outcome) -> None:
         self._done += 1
-        self.stage = f"{self._done} of {len(self.frames)} frames"
+        self.stage = self._progress(self._done)
         self.fraction = self._done / len(self.frames)
         if outcome.resumed:
             self._kept.add(frame.frame)
         if self.cancelled:
             raise Cancelled
+
+    def _progress(self, done: int) -> str:
+        return f"{done} of {len(self.frames)} frames"
 
 
 def parts_folder(cache: Path, frames: Sequence[Frame]) -> Path:

@@ -4,35 +4,38 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import bpy
-from bpy.props import CollectionProperty, EnumProperty, StringProperty
+from bpy.props import EnumProperty, StringProperty
 
 from ..engine import InvoluteError
 from . import grease_pencil as gp
-from . import sources, state, worker
+from . import sources, state
+from .file_choice import ChosenFiles
 from .placement import Placement, front_view, on_empty
 from .placing import PlacingSettings, stand
+from .settings_layout import draw_placing, draw_settings
 from .sources import Source
 from .trace_settings import TraceSettings, engine_settings
+from .tracing import Tracing
+from .worker import Result, Worker
+
+if TYPE_CHECKING:
+    from ..engine import Drawing
 
 
-class INVOLUTE_OT_trace(PlacingSettings, TraceSettings, bpy.types.Operator):
+class INVOLUTE_OT_trace(Tracing, ChosenFiles, PlacingSettings, TraceSettings, bpy.types.Operator):
     """Turn a scanned drawing into Grease Pencil strokes that run straight through junctions"""
 
     bl_idname = "involute.trace"
     bl_label = "Trace Drawing"
-    bl_options = {"REGISTER", "UNDO"}
 
     filepath: StringProperty(
         name="File",
         description="Picture to trace; empty for the image given below or the active image Empty",
         subtype="FILE_PATH",
         options={"SKIP_SAVE"},
-    )
-    directory: StringProperty(subtype="DIR_PATH", options={"SKIP_SAVE", "HIDDEN"})
-    files: CollectionProperty(
-        type=bpy.types.OperatorFileListElement, options={"SKIP_SAVE", "HIDDEN"}
     )
     image: StringProperty(
         name="Image",
@@ -50,57 +53,31 @@ class INVOLUTE_OT_trace(PlacingSettings, TraceSettings, bpy.types.Operator):
         options={"SKIP_SAVE"},
     )
 
-    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        if bpy.app.background:
-            return self.execute(context)
-        if worker.current is not None:
-            self.report({"ERROR"}, "Another trace is running; wait for it or cancel it.")
-            return {"CANCELLED"}
-        try:
-            worker.current = worker.Worker(self._sources(context), engine_settings(self))
-        except InvoluteError as problem:
-            self.report({"ERROR"}, str(problem))
-            return {"CANCELLED"}
-        worker.current.start()
-        manager = context.window_manager
-        self._timer = manager.event_timer_add(0.1, window=context.window)
-        manager.progress_begin(0, 100)
-        manager.modal_handler_add(self)
-        return {"RUNNING_MODAL"}
+    def begin(self, context: bpy.types.Context) -> Worker:
+        return Worker(self._sources(context), engine_settings(self))
 
-    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        job = worker.current
-        if event.type == "ESC" and event.value == "PRESS":
-            job.cancel()
-            return {"RUNNING_MODAL"}
-        if event.type != "TIMER":
-            return {"PASS_THROUGH"}
-        _show_progress(context, job)
-        if job.running:
-            return {"RUNNING_MODAL"}
-        self._stop_showing(context)
+    def finish(self, context: bpy.types.Context, job: Worker) -> set[str]:
         if job.cancelled:
             self.report({"INFO"}, "Tracing was cancelled.")
             return {"CANCELLED"}
-        return self._finish(context, job.results)
-
-    def cancel(self, context: bpy.types.Context) -> None:
-        """Blender itself ends the operator, for example when a file is opened."""
-        worker.current.cancel()
-        self._stop_showing(context)
-
-    def execute(self, context: bpy.types.Context) -> set[str]:
+        done = [result for result in job.results if result.drawing is not None]
+        failed = [result for result in job.results if result.drawing is None]
         try:
-            job = worker.Worker(self._sources(context), engine_settings(self))
+            if done:
+                self._write(context, done)
         except InvoluteError as problem:
             self.report({"ERROR"}, str(problem))
             return {"CANCELLED"}
-        job.run()
-        return self._finish(context, job.results)
+        if not done:
+            problem = failed[0].problem if failed else job.problem
+            self.report({"ERROR"}, problem or "There is nothing to trace.")
+            return {"CANCELLED"}
+        for result in failed:
+            self.report({"WARNING"}, f"{result.source.name}: {result.problem}")
+        self._report_counts([result.drawing for result in done])
+        return {"FINISHED"}
 
     def draw(self, context: bpy.types.Context) -> None:
-        from .settings_layout import draw_placing, draw_settings
-
         self.layout.use_property_split = True
         self.layout.use_property_decorate = False
         draw_placing(self.layout, self)
@@ -109,7 +86,7 @@ class INVOLUTE_OT_trace(PlacingSettings, TraceSettings, bpy.types.Operator):
     def _sources(self, context: bpy.types.Context) -> list[Source]:
         """What to trace; Blender is read here, in its own thread."""
         if self.files and self.directory:
-            paths = [str(Path(self.directory, file.name)) for file in self.files if file.name]
+            paths = [str(Path(self.directory, name)) for name in self.names]
         else:
             paths = [self.filepath] if self.filepath else []
         if paths:
@@ -125,34 +102,20 @@ class INVOLUTE_OT_trace(PlacingSettings, TraceSettings, bpy.types.Operator):
             raise InvoluteError("Choose a picture file, or select an Empty that shows an image.")
         return [sources.from_image(empty.data, empty)]
 
-    def _finish(self, context: bpy.types.Context, results: Sequence[worker.Result]) -> set[str]:
-        done = [result for result in results if result.drawing is not None]
-        failed = [result for result in results if result.drawing is None]
-        try:
-            if done:
-                self._write(context, done)
-        except InvoluteError as problem:
-            self.report({"ERROR"}, str(problem))
-            return {"CANCELLED"}
-        if not done:
-            self.report({"ERROR"}, failed[0].problem if failed else "There is nothing to trace.")
-            return {"CANCELLED"}
-        for result in failed:
-            self.report({"WARNING"}, f"{result.source.name}: {result.problem}")
-        strokes = sum(len(result.drawing.strokes) for result in done)
-        junctions = sum(len(result.drawing.junctions) for result in done)
-        doubtful = sum(len(result.drawing.doubtful) for result in done)
-        seconds = sum(sum(result.drawing.seconds.values()) for result in done)
-        if strokes == 0 and not any(result.drawing.fills for result in done):
+    def _report_counts(self, drawings: Sequence[Drawing]) -> None:
+        strokes = sum(len(drawing.strokes) for drawing in drawings)
+        if strokes == 0 and not any(drawing.fills for drawing in drawings):
             self.report({"WARNING"}, "There are no lines in the picture.")
-        else:
-            self.report(
-                {"INFO"},
-                f"{strokes} strokes, {junctions} junctions ({doubtful} doubtful), {seconds:.1f} s",
-            )
-        return {"FINISHED"}
+            return
+        junctions = sum(len(drawing.junctions) for drawing in drawings)
+        doubtful = sum(len(drawing.doubtful) for drawing in drawings)
+        seconds = sum(sum(drawing.seconds.values()) for drawing in drawings)
+        self.report(
+            {"INFO"},
+            f"{strokes} strokes, {junctions} junctions ({doubtful} doubtful), {seconds:.1f} s",
+        )
 
-    def _write(self, context: bpy.types.Context, done: Sequence[worker.Result]) -> None:
+    def _write(self, context: bpy.types.Context, done: Sequence[Result]) -> None:
         frame = context.scene.frame_current
         if self.target == "ACTIVE":
             obj = context.active_object
@@ -179,28 +142,6 @@ class INVOLUTE_OT_trace(PlacingSettings, TraceSettings, bpy.types.Operator):
             obj.select_set(True)
         context.view_layer.objects.active = objects[0]
 
-    def _stop_showing(self, context: bpy.types.Context) -> None:
-        context.window_manager.event_timer_remove(self._timer)
-        context.window_manager.progress_end()
-        context.workspace.status_text_set(None)
-        worker.current = None
-        _redraw_sidebars(context)
-
-
-class INVOLUTE_OT_cancel(bpy.types.Operator):
-    """Stop the trace that is running; nothing in the scene changes"""
-
-    bl_idname = "involute.cancel"
-    bl_label = "Cancel"
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return worker.current is not None
-
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        worker.current.cancel()
-        return {"FINISHED"}
-
 
 def is_image_empty(obj: bpy.types.Object | None) -> bool:
     return (
@@ -216,7 +157,7 @@ def new_object(name: str) -> bpy.types.Object:
     return bpy.data.objects.new(name, gp.collection().new(name))
 
 
-def put(obj: bpy.types.Object, result: worker.Result, frame: int, placement: Placement) -> None:
+def put(obj: bpy.types.Object, result: Result, frame: int, placement: Placement) -> None:
     """Write a traced drawing into an object, strokes and routing state.
 
     An image Empty that shows the picture takes precedence over `placement`.
@@ -230,18 +171,4 @@ def put(obj: bpy.types.Object, result: worker.Result, frame: int, placement: Pla
     gp.write(obj.data, frame, drawing, placement, key)
 
 
-def _show_progress(context: bpy.types.Context, job: worker.Worker) -> None:
-    percent = round(100 * job.fraction)
-    context.window_manager.progress_update(percent)
-    context.workspace.status_text_set(f"Involute: {job.stage}, {percent} %   (ESC cancels)")
-    _redraw_sidebars(context)
-
-
-def _redraw_sidebars(context: bpy.types.Context) -> None:
-    for window in context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type == "VIEW_3D":
-                area.tag_redraw()
-
-
-CLASSES = (INVOLUTE_OT_trace, INVOLUTE_OT_cancel)
+CLASSES = (INVOLUTE_OT_trace,)

@@ -1,13 +1,13 @@
-"""Tracing in a thread that touches nothing of Blender; the operator looks in now and then."""
+"""Pictures traced one after the other, in the background."""
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from ..engine import Cancelled, InvoluteError, Settings
+from .job import Job, unexpected
 from .sources import Source
 
 if TYPE_CHECKING:
@@ -32,34 +32,16 @@ class Result:
     problem: str = ""
 
 
-class Worker:
-    """Traces sources one after the other.
-
-    results: what is done so far. stage, fraction: where it is, for progress bars.
-    """
+class Worker(Job):
+    """Traces sources; results: what is done so far."""
 
     def __init__(self, sources: Sequence[Source], settings: Settings) -> None:
+        super().__init__(STAGES["scan"])
         self.sources = list(sources)
         self.settings = settings
         self.results: list[Result] = []
-        self.stage = STAGES["scan"]
-        self.fraction = 0.0
-        self.cancelled = False
-        self._thread = threading.Thread(target=self.run, name="involute", daemon=True)
 
-    def start(self) -> None:
-        self._thread.start()
-
-    def cancel(self) -> None:
-        """Ask to stop; the engine does at its next step."""
-        self.cancelled = True
-
-    @property
-    def running(self) -> bool:
-        return self._thread.is_alive()
-
-    def run(self) -> None:
-        """Trace all sources; never raises."""
+    def work(self) -> None:
         for source in self.sources:
             if self.cancelled:
                 return
@@ -74,8 +56,8 @@ class Worker:
             return Result(source, None, str(problem))
         except MemoryError:
             return Result(source, None, "There is not enough memory for a picture of this size.")
-        except Exception as problem:  # a defect of ours must not leave the interface waiting
-            return Result(source, None, _unexpected(problem))
+        except Exception as problem:  # the other sources may be all right
+            return Result(source, None, unexpected(problem))
         return Result(source, drawing)
 
     def _tick(self, stage: str, fraction: float) -> None:
@@ -83,14 +65,3 @@ class Worker:
             raise Cancelled
         self.stage = STAGES.get(stage, stage)
         self.fraction = (len(self.results) + fraction) / len(self.sources)
-
-
-def _unexpected(problem: Exception) -> str:
-    import traceback
-
-    traceback.print_exc()
-    return f"Tracing failed unexpectedly ({problem!r}); please report it."
-
-
-current: Worker | None = None
-"""The trace that runs now, for the sidebar; there is at most one."""

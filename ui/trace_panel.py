@@ -5,13 +5,14 @@ from __future__ import annotations
 import bpy
 
 from ..engine import InvoluteError
-from ..operators import worker
+from ..operators import job as jobs
 from ..operators.import_scan import INVOLUTE_OT_import_scan
 from ..operators.playing import plays_frames
 from ..operators.sequence import INVOLUTE_OT_import_sequence, INVOLUTE_OT_trace_sequence
 from ..operators.settings_layout import draw_settings
-from ..operators.trace import INVOLUTE_OT_cancel, INVOLUTE_OT_trace, is_image_empty
+from ..operators.trace import INVOLUTE_OT_trace, is_image_empty
 from ..operators.trace_settings import as_values, scene_settings
+from ..operators.tracing import INVOLUTE_OT_cancel
 from ..operators.use_defaults import INVOLUTE_OT_use_defaults
 from ..operators.view_state import Shown, shown_in
 from .presets import draw_preset_menu
@@ -31,8 +32,8 @@ class INVOLUTE_PT_trace(bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         layout = self.layout
-        if worker.current is not None:
-            job = worker.current
+        if jobs.current is not None:
+            job = jobs.current
             layout.progress(factor=job.fraction, text=job.stage)
             layout.operator(INVOLUTE_OT_cancel.bl_idname, icon="CANCEL")
             return

@@ -146,6 +146,21 @@ def test_an_empty_that_plays_a_movie(bpy, part, quick, tmp_path):
     assert heights == sorted(heights, reverse=True)
 
 
+def test_the_file_browsers_choice_becomes_keyframes(bpy, part, tmp_path):
+    """File > Import: all numbered drawings of the folder, or those that were chosen."""
+    folder = make_pages(part, tmp_path / "walk", [1, 2, 3])
+    options = {"provider": "classical", "router": "geometric", "jobs": 1}
+    first = sorted(folder.iterdir())[0]
+    chosen = [{"name": first.name}]
+    bpy.ops.involute.import_sequence(directory=str(folder), files=chosen, **options)
+    assert keyframes(bpy.context.active_object)["Black"] == [(1, 1), (2, 1), (3, 1)]
+    two = [{"name": path.name} for path in sorted(folder.iterdir())[1:]]
+    bpy.ops.involute.import_sequence(directory=str(folder), files=two, **options)
+    assert len(keyframes(bpy.context.active_object)["Black"]) == 2
+    with pytest.raises(RuntimeError, match="no folder"):
+        bpy.ops.involute.import_sequence(directory=str(folder / "none"), **options)
+
+
 def test_the_job_leaves_the_caller_free(part, tmp_path):
     """What the window does with its timer: look in now and then while processes work."""
     folder = make_pages(part, tmp_path / "walk", [1, 2, 3])

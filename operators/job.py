@@ -1,0 +1,59 @@
+"""Work in a thread that touches nothing of Blender; an operator looks in now and then."""
+
+from __future__ import annotations
+
+import threading
+import traceback
+
+from ..engine import Cancelled, InvoluteError
+
+
+class Job:
+    """What all traces in the background share; subclasses say in `work` what is done.
+
+    stage, fraction: where it is, for progress bars.
+    problem: the sentence that says why all of it failed.
+    """
+
+    def __init__(self, stage: str) -> None:
+        self.stage = stage
+        self.fraction = 0.0
+        self.cancelled = False
+        self.problem = ""
+        self._thread = threading.Thread(target=self.run, name="involute", daemon=True)
+
+    def work(self) -> None:
+        """Do it; may raise."""
+        raise NotImplementedError
+
+    def start(self) -> None:
+        self._thread.start()
+
+    def cancel(self) -> None:
+        """Ask to stop, at the next step."""
+        self.cancelled = True
+
+    @property
+    def running(self) -> bool:
+        return self._thread.is_alive()
+
+    def run(self) -> None:
+        """Do it here and now; never raises."""
+        try:
+            self.work()
+        except Cancelled:
+            pass
+        except InvoluteError as problem:
+            self.problem = str(problem)
+        except Exception as problem:  # a defect of ours must not leave the interface waiting
+            self.problem = unexpected(problem)
+
+
+def unexpected(problem: Exception) -> str:
+    """What to tell about a defect; the console gets all of it."""
+    traceback.print_exc()
+    return f"Tracing failed unexpectedly ({problem!r}); please report it."
+
+
+current: Job | None = None
+"""The trace that runs now, for the sidebar; there is at most one."""
