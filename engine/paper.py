@@ -1,4 +1,4 @@
-"""Paper, shading and grain taken out of a page: what is left is ink.
+"""Paper, shading, rules and grain taken out of a page: what is left is ink.
 
 `flatten_paper` is the one normalisation that every later stage relies on, and that the network is
 trained with: simple, deterministic, and it looks only at what lies near.
@@ -9,16 +9,18 @@ from __future__ import annotations
 import cv2
 import numpy as np
 
+from .ruling import without_rules
 from .values import Array
 
 _BLOCK = 8  # px; paper is estimated on a grid of such blocks
 
 
 def flatten_paper(gray: Array) -> Array:
-    """Take paper, shading and grain out of a page of dark lines.
+    """Take paper, shading, rules and grain out of a page of dark lines.
 
     Two passes: the lightest spots give a first guess of the paper; what that guess calls bare
     paper then gives its true mean and its grain, so that grain ends up around 0 and can be gated.
+    Rules and grids go as well.
 
     Args:
         gray: (H, W) float32 luminance in [0, 1]; 0 = black.
@@ -32,7 +34,7 @@ def flatten_paper(gray: Array) -> Array:
     share = _to_grid(bare)
     known = share > 0.1
     mean = _smooth_fill(_to_grid(rough * bare) / np.maximum(share, 1e-3), known)
-    darkness = rough - _from_grid(mean, gray.shape)
+    darkness = without_rules(rough - _from_grid(mean, gray.shape))
     _gate(darkness, bare)
     return np.minimum(darkness / _pen_level(darkness), 1.0)
 

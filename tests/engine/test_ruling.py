@@ -1,0 +1,79 @@
+"""Printed rules and grids leave a page; what is drawn stays."""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+import pytest
+from involute.engine.paper import flatten_paper
+from involute.engine.pipeline import vectorize
+from involute.engine.ruling import without_rules
+
+SIZE = 640
+
+
+def sheet(pitch: float, turn: float, tone: float, grid: bool) -> np.ndarray:
+    """Darkness of rules about 2 px wide, turned by some radians; float32."""
+    y, x = np.mgrid[:SIZE, :SIZE].astype(np.float32) + 0.5
+    ways = [y - turn * x, x + turn * y][: 1 + grid]
+    away = [np.abs((way % pitch) - pitch / 2) for way in ways]
+    return (tone * np.clip(1.5 - np.min(away, 0), 0, 1)).astype(np.float32)
+
+
+def drawing() -> np.ndarray:
+    """Darkness of a circle and a slanted line."""
+    ink = np.zeros((SIZE, SIZE), np.uint8)
+    cv2.circle(ink, (300, 320), 170, 255, 3, cv2.LINE_AA)
+    cv2.line(ink, (60, 70), (560, 590), 255, 3, cv2.LINE_AA)
+    return ink.astype(np.float32) / 255
+
+
+def together(*layers: np.ndarray) -> np.ndarray:
+    return 1 - np.prod([1 - layer for layer in layers], 0, dtype=np.float32)
+
+
+@pytest.mark.parametrize("grid", [False, True])
+@pytest.mark.parametrize("turn", [0.0, 0.013, -0.04])
+@pytest.mark.parametrize("pitch", [11.0, 29.3, 80.0])
+def test_rules_go_and_ink_stays(pitch, turn, grid):
+    ink = drawing()
+    left = without_rules(together(0.9 * ink, sheet(pitch, turn, 0.3, grid)))
+    assert left[ink == 0].mean() < 0.004
+    assert left[ink == 1].min() > 0.6
+
+
+def test_a_pencil_line_as_pale_as_the_rules_stays():
+    ink = drawing()
+    left = without_rules(together(0.3 * ink, sheet(29.0, 0.01, 0.3, grid=False)))
+    assert np.median(left[ink == 1]) > 0.25
+    assert left[ink == 0].mean() < 0.004
+
+
+def test_a_bare_ruled_sheet_is_bare():
+    gray = 0.9 - 0.9 * sheet(40.0, 0.01, 0.25, grid=True)
+    assert flatten_paper(gray).mean() < 0.002
+    assert not vectorize(gray).strokes
+
+
+@pytest.mark.parametrize("count", [2, 4])
+def test_a_few_long_lines_are_a_drawing(count):
+    page = 0.3 * drawing()
+    for k in range(count):
+        page[100 + 120 * k : 102 + 120 * k] = 0.3
+    assert without_rules(page) is page
+
+
+def test_uneven_dark_and_short_lines_are_a_drawing():
+    rows = np.cumsum([60, 40, 75, 35, 90, 50, 120, 45])
+    uneven, dark, short = np.zeros((3, SIZE, SIZE), np.float32)
+    uneven[rows] = uneven[rows + 1] = 0.3
+    dark[30::40] = dark[31::40] = 0.9  # as dark as ink: somebody has drawn a grid
+    short[30::40, 150:400] = 0.3
+    for page in (uneven, dark, short):
+        assert without_rules(page) is page
+
+
+def test_hatching_is_a_drawing():
+    page = np.zeros((SIZE, SIZE), np.float32)
+    page[40:240:10, 20:620] = 0.5  # even and long, but on a third of the page
+    assert without_rules(together(page, drawing())).sum() >= page.sum()
