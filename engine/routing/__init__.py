@@ -62,7 +62,7 @@ def scorer_for(settings: Settings) -> Scorer:
     from . import network
 
     def by_network(graph: PlanarGraph, pairs: np.ndarray, fixed: Fixed) -> np.ndarray:
-        shape = network.score(graph, pairs, fixed, settings)
+        shape = network.score(graph, pairs, fixed)
         return shape + geometric.tint_score(graph, pairs)
 
     if settings.router == "network" or network.available():

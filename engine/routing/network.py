@@ -16,7 +16,6 @@ from typing import Any
 import numpy as np
 
 from ..errors import InvoluteError
-from ..settings import Settings
 from ..values import Array, Pair, PlanarGraph
 from . import geometric
 from .encoding import encode
@@ -34,7 +33,6 @@ def score(
     graph: PlanarGraph,
     pairs: Array,
     fixed: Mapping[int, tuple[Pair, ...]] | None = None,
-    settings: Settings | None = None,
 ) -> Array:
     """Calibrated log-odds of joining pairs of half-branches.
 
@@ -43,7 +41,6 @@ def score(
         pairs: (K, 2) half-branches that share a junction.
         fixed: junction number -> the pairs that the user has decided there; the network takes
             them as given.
-        settings: not used yet; scorers share one signature.
 
     Returns:
         (K,) float32 log-odds of joining each pair against ending both. Pairs at junctions with

@@ -18,15 +18,18 @@ from involute.engine.routing import network
 from involute.engine.routing.encoding import PAIR_SIZE, TOKEN_SIZE
 from involute.engine.routing.matching import pair_matrix
 from involute.engine.settings import Settings
-from involute.training.routing.augment import augmented, contracted, random_fixed
+from involute.training.routing.augment import Page, _tips, augmented, contracted, random_fixed
 from involute.training.routing.data import Bank, encoded, joined, true_page
 from involute.training.routing.export import calibrate, export, load
 from involute.training.routing.judge import judge
+from involute.training.routing.labels import labelled, unowned
 from involute.training.routing.likelihood import exact, sinkhorn
 from involute.training.routing.model import RoutingNet
 from involute.training.routing.pages import Library, net
+from involute.training.routing.planar import graph_from_strokes
+from involute.training.routing.restore import restored
+from involute.training.routing.traced import graph_of, look_ideal, look_scan, save
 from involute.training.routing.traced import load as load_traced
-from involute.training.routing.traced import matched, save, trace_ideal
 from involute.training.routing.train import run, train
 
 seeds = st.integers(0, 2**32 - 1)
@@ -134,17 +137,85 @@ def test_contracting_a_short_branch_joins_what_ran_through_it() -> None:
     assert directions[0] @ directions[1] < 0
 
 
+def _traced(strokes: list[np.ndarray]) -> Page:
+    maps, scan = look_ideal(np.random.default_rng(0), strokes, Settings())
+    return labelled(graph_of(maps, scan, Settings()), strokes)
+
+
+def _continuations(page: Page) -> int:
+    """Pairs of half-branches that continue each other at junctions."""
+    own = np.arange(len(page.partner))
+    at = page.graph.degrees[page.graph.half_vertex] >= 3
+    return int((at & (page.partner > own)).sum())
+
+
 def test_a_traced_page_is_matched_to_its_strokes(tmp_path: Path) -> None:
-    graph = trace_ideal(np.random.default_rng(0), CROSS, Settings())
-    page = matched(graph, CROSS)
-    degrees = sorted(graph.degrees[graph.junctions].tolist())
+    page = _traced(CROSS)
+    degrees = sorted(page.graph.degrees[page.graph.junctions].tolist())
     assert degrees == [3, 4]
-    assert len(page.allowed) == 3
+    assert _continuations(page) == 3
     save(tmp_path / "pages.npz", [page, page])
     again = load_traced(tmp_path / "pages.npz")
     assert len(again) == 2
     np.testing.assert_array_equal(again[1].partner, page.partner)
-    np.testing.assert_array_equal(again[1].graph.points, graph.points)
+    np.testing.assert_array_equal(again[1].graph.points, page.graph.points)
+
+
+def test_a_scanned_page_is_matched_to_its_strokes() -> None:
+    maps, scan = look_scan(np.random.default_rng(3), CROSS, Settings(provider="classical"))
+    strokes = [line / scan.scale for line in CROSS]
+    page = labelled(graph_of(maps, scan, Settings()), strokes)
+    assert unowned(page) < 0.1
+    assert _continuations(page) >= 2
+    assert page.graph.widths is not None
+
+
+def test_a_branch_of_two_strokes_has_one_owner_at_both_ends() -> None:
+    """Two strokes that run together for a while: the tracer makes one branch of both there."""
+    straight = _line((20, 60), (100, 60), (160, 60), (240, 60))
+    other = _line((20, 20), (100, 61.3), (160, 61.3), (240, 100))
+    page = _traced([straight, other])
+    graph = page.graph
+    shared = [b for b in range(graph.branch_count) if 100 < graph.branch(b)[:, 0].mean() < 160]
+    assert len(shared) == 1
+    beyond = page.partner[[2 * shared[0], 2 * shared[0] + 1]]
+    assert len(set(page.stroke[graph.offsets[beyond >> 1]])) == 1
+    assert _continuations(page) == 2
+
+
+def test_strokes_run_past_what_nobody_drew() -> None:
+    """A rung between two hatch lines and a spur continue in nothing."""
+    rails = [_line((20, 60), (180, 60)), _line((20, 65), (180, 65))]
+    rung, spur = _line((100, 60), (100, 65)), _line((140, 60), (140, 48))
+    graph, _ = graph_from_strokes([*rails, rung, spur])
+    assert len(graph.junctions) == 3
+    page = labelled(graph, rails)
+    assert _continuations(page) == 3
+    false = np.flatnonzero(page.stroke[graph.offsets[:-1]] < 0)
+    assert len(false) == 2
+    halves = np.concatenate([2 * false, 2 * false + 1])
+    np.testing.assert_array_equal(page.partner[halves], halves)
+    assert unowned(page) == pytest.approx(17 / 337, abs=0.01)
+
+
+def test_strokes_taper_only_where_they_end() -> None:
+    page = true_page(CROSS)
+    tip, _ = _tips(np.random.default_rng(0), page)
+    graph = page.graph
+    ends = np.stack([graph.offsets[:-1], graph.offsets[1:] - 1], 1).reshape(-1)
+    through = page.partner != np.arange(len(page.partner))
+    assert tip[ends[through]].max() < 0.2
+    assert tip[ends[~through]].max() == 1
+
+
+def test_shipped_weights_can_be_trained_on(tmp_path: Path) -> None:
+    torch.manual_seed(3)
+    model = RoutingNet(width=16, edge=8, layers=2).eval()
+    for weight in model.parameters():
+        torch.nn.init.normal_(weight)
+    export(model, tmp_path / "routing.onnx")
+    for name, weight in restored(tmp_path / "routing.onnx").state_dict().items():
+        torch.testing.assert_close(weight, model.state_dict()[name], atol=0, rtol=0)
 
 
 def test_batches_join_pages_without_mixing_them() -> None:

@@ -23,26 +23,24 @@ Array = np.ndarray
 class Page:
     """A graph, its true involution (2B,), and the pen stroke that each point belongs to (P,).
 
-    allowed: for a traced page, which must not be contracted, all (K, 2) pairs that some pen ran
-        through. Two of them contradict each other where the tracer made one branch of two
-        strokes; then each is as right as the other, and `partner` has only one of them.
+    traced: the graph is a tracer's own; its junctions must not be merged once more.
     """
 
     graph: PlanarGraph
     partner: Array
     stroke: Array
-    allowed: Array | None = None
+    traced: bool = False
 
 
 def augmented(rng: np.random.Generator, page: Page) -> Page:
     """A random variation of a page, from untouched but turned to roughly traced."""
     page = replace(page, graph=_bent(rng, page.graph))
-    traced = page.allowed is not None
+    traced = page.traced
     if not traced and rng.random() < 0.5:
         page = contracted(page, rng.uniform(0.5, 4.5))
     if rng.random() < (0.2 if traced else 0.6) and page.graph.branch_count:
         page = replace(page, graph=_shaken(rng, page.graph))
-    if traced and rng.random() < 0.5:
+    if traced and rng.random() < 0.8:
         return page
     return replace(page, graph=_inked(rng, page))
 
@@ -166,13 +164,16 @@ def _inked(rng: np.random.Generator, page: Page) -> PlanarGraph:
     graph, stroke = page.graph, page.stroke.astype(int)
     if not len(stroke) or rng.random() < 0.4:
         return replace(graph, widths=None, strength=None, colors=None)
-    count = stroke.max() + 1
+    count = max(int(stroke.max()) + 1, 1)
     branch = np.repeat(np.arange(graph.branch_count), np.diff(graph.offsets))
     noise = rng.normal(0, 1, graph.branch_count)[branch]
     pen = np.log(rng.uniform(1.5, 7)) + rng.normal(0, rng.choice([0.0, 0.1, 0.3]), count)
     width = np.exp(pen[stroke] + rng.uniform(0.02, 0.2) * noise)
+    tip, near = _tips(rng, page)
+    width *= np.exp(rng.uniform(0, 0.15) * near) * (1 - rng.choice([0.0, 0.4, 0.8]) * tip)
     dark = np.clip(rng.uniform(0.4, 1) + rng.normal(0, rng.choice([0.0, 0.1]), count), 0.1, 1)
-    strength = np.clip(dark[stroke] + rng.uniform(0.01, 0.08) * noise, 0, 1)
+    dark = dark[stroke] + rng.uniform(0.01, 0.08) * noise + rng.uniform(0, 0.1) * near
+    strength = np.clip(dark * (1 - rng.choice([0.0, 0.0, 0.4]) * tip), 0, 1)
     colors = None
     if rng.random() < 0.4:
         inks = rng.integers(0, 200, (int(rng.choice([1, 1, 2, 3])), 3))
@@ -181,3 +182,17 @@ def _inked(rng: np.random.Generator, page: Page) -> PlanarGraph:
     return replace(
         graph, widths=width.astype(np.float32), strength=strength.astype(np.float32), colors=colors
     )
+
+
+def _tips(rng: np.random.Generator, page: Page) -> tuple[Array, Array]:
+    """Two values for every point: how much of a tip of its stroke it is, 1 at the very end and 0
+    from some px on; and random blots at both ends of every branch, of spread 1."""
+    branch, arc, length = _arcs(page.graph)
+    reach = np.exp(rng.uniform(np.log(8), np.log(50)))
+    tip, near = np.zeros(len(arc)), np.zeros(len(arc))
+    for side, away in enumerate((arc, length - arc)):
+        half = 2 * np.arange(page.graph.branch_count) + side
+        ends = (page.partner[half] == half) & (rng.random(len(half)) < 0.85)
+        tip = np.maximum(tip, ends[branch] * (1 - np.sqrt(np.minimum(away / reach, 1))))
+        near += rng.normal(0, 1, len(half))[branch] * np.exp(-away / 8)
+    return tip, near

@@ -21,8 +21,8 @@ _RENEW = 0.2  # how often a visit brings a new page
 class Batch:
     """Junctions of several pages: the arrays of `Encoding`, the truth, and which were fixed.
 
-    truth: (J, D, D) float32 symmetric 0/1, see `Page.allowed`; asked: (J,) float32, 0 where the
-    truth was given away; page: (J,) int64, which page of the batch a junction is on.
+    truth: (J, D, D) float32 symmetric 0/1; asked: (J,) float32, 0 where the truth was given away;
+    page: (J,) int64, which page of the batch a junction is on.
     """
 
     tokens: Array
@@ -45,10 +45,8 @@ def truth_of(page: Page, encoding: Encoding) -> Array:
     """(J, D, D) float32, 1 where the pen ran from one half-branch into the other."""
     halves = encoding.halves
     truth = np.zeros((*halves.shape, halves.shape[1]), np.float32)
-    pairs = page.allowed
-    if pairs is None:
-        own = np.arange(len(page.partner))
-        pairs = np.stack([own, page.partner], 1)[page.partner > own]
+    own = np.arange(len(page.partner))
+    pairs = np.stack([own, page.partner], 1)[page.partner > own]
     slot = np.full(len(page.partner), -1)
     slot[halves[halves >= 0]] = np.flatnonzero(halves >= 0)
     a, b = slot[pairs[(slot[pairs] >= 0).all(1)]].T

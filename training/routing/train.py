@@ -21,6 +21,7 @@ from .data import Bank, Batch, encoded, joined, true_page
 from .judge import Verdict, judge
 from .model import RoutingNet
 from .pages import Library
+from .restore import restored
 from .traced import load
 
 
@@ -41,7 +42,7 @@ def main() -> None:
     parser.add_argument("--traced", type=Path, nargs="*", default=[], help="pages by `traced`")
     parser.add_argument("--traced-held-out", type=Path, help="the same, to validate on")
     parser.add_argument("--traced-share", type=float, default=0.4)
-    parser.add_argument("--start", type=Path, help="weights to start from")
+    parser.add_argument("--start", type=Path, help="checkpoint.pt or routing.onnx to start from")
     train(parser.parse_args())
 
 
@@ -60,7 +61,7 @@ def train(args: argparse.Namespace) -> None:
         optimizer.load_state_dict(saved["optimizer"])
         first, before = saved["step"], saved["minutes"]
     elif args.start:
-        net.load_state_dict(torch.load(args.start, map_location=args.device)["mean"])
+        net.load_state_dict(_weights(args.start))
         mean.load_state_dict(net.state_dict())
     traced = [page for file in args.traced for page in load(file)]
     library = Library.load(args.data, held_out=False)
@@ -101,6 +102,12 @@ def train(args: argparse.Namespace) -> None:
             state = {"net": net.state_dict(), "mean": mean.state_dict(), "config": net.config}
             state |= {"optimizer": optimizer.state_dict(), "step": step, "minutes": minutes}
             torch.save(state, checkpoint)
+
+
+def _weights(file: Path) -> dict[str, torch.Tensor]:
+    if file.suffix == ".onnx":
+        return restored(file).state_dict()
+    return torch.load(file, map_location="cpu")["mean"]
 
 
 def learning_rate(step: int, done: float) -> float:
