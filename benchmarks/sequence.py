@@ -131,7 +131,7 @@ def render(strokes: Sequence[Array], rng: np.random.Generator) -> Array:
 def label(drawing: Drawing, truth: Sequence[Array]) -> dict[int, tuple[int, bool]]:
     """Pen stroke -> (number of the traced stroke that shows most of it, runs the same way)."""
     length = [np.hypot(*np.diff(points, axis=0).T).sum() for points in truth]
-    dense = [_dense(points) for points in truth]
+    dense = [dense(points) for points in truth]
     owner = np.repeat(np.arange(len(truth)), [len(d) for d in dense])
     along = np.concatenate([np.linspace(0, 1, len(d)) for d in dense])
     tree = cKDTree(np.concatenate(dense))
@@ -150,7 +150,7 @@ def label(drawing: Drawing, truth: Sequence[Array]) -> dict[int, tuple[int, bool
     return found
 
 
-def _dense(points: Array) -> Array:
+def dense(points: Array) -> Array:
     """The same line with a point a pixel."""
     along = np.concatenate([[0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
     at = np.linspace(0, along[-1], max(2, int(along[-1])))

@@ -16,7 +16,7 @@ import numpy as np
 from .centerline import provider_for
 from .drawing import Drawing
 from .errors import Cancelled
-from .graph import build_graph, measure, sweep
+from .graph import build_graph, measure, sweep, without_pencil
 from .registration import set_aside
 from .routing import route
 from .scan import read_scan
@@ -72,6 +72,8 @@ def vectorize(
         maps = provider_for(settings)(lines, tick)
     with clock("graph"):
         graph = measure(build_graph(maps, lines.pen_width, settings), lines, maps)
+        if "gray" in settings.ignore_inks:
+            graph = measure(without_pencil(graph), lines, maps)
         graph = sweep(graph, settings)
     with clock("routing"):
         routing = route(graph, settings)

@@ -40,8 +40,10 @@ class Settings:
         provider: what makes the centerline: "network", "classical", "given" (the input already is
             a centerline image, white on black), or "auto" (the network when its weights are there).
         solids: take solid black areas out as fills instead of tracing them.
-        inks: give the strokes the colour of their ink; off = all strokes are black.
+        inks: give the strokes the colour of their ink, and grey to pencil under ink; off = all
+            strokes are black.
         ignore_inks: inks that are not traced, such as a blue construction pencil; see `INKS`.
+            "gray" is pencil under ink.
         marks: leave out scan borders, punched holes and registration marks.
         regions: fill the closed regions between the lines, on a layer below (in Blender).
         align: where the punched holes (or marks) shall lie, in px of the input; the page is turned

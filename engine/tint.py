@@ -8,7 +8,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from .values import PlanarGraph
+
 Array = np.ndarray
+
+NEUTRAL = 0.3  # greatest chroma of black ink
 
 
 def density(colors: Array) -> Array:
@@ -25,3 +29,11 @@ def tint(colors: Array) -> Array:
     relative = dense / np.maximum(dense.mean(-1, keepdims=True), 0.05) - 1.0
     across = np.array([[2.0, -1.0, -1.0], [0.0, 3.0**0.5, -(3.0**0.5)]]) / 6.0**0.5
     return relative @ across.T
+
+
+def branch_colors(graph: PlanarGraph) -> Array:
+    """The mean colour of each branch where it is darkest: (B, 3) float, 0..255."""
+    weight = density(graph.colors).mean(1) ** 4 + 1e-6
+    start = graph.offsets[:-1]
+    total = np.add.reduceat(graph.colors * weight[:, None], start, axis=0)
+    return total / np.add.reduceat(weight, start)[:, None]

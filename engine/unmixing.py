@@ -29,7 +29,8 @@ COLORED = 0.3  # how far a density is from grey, relative to its size, in colour
 _FAINT = 0.06  # mean density below which a pixel is paper
 _NEAR = np.radians(60)  # an ink farther than this round the colour circle is not the one meant
 _BINS = 36
-_FAINTER = 0.6  # of the ink's darkness: what a pencil under ink is at most
+_FAINTER = 0.68  # of the ink's darkness: what a pencil under ink is at most
+_BETWEEN = 0.08  # of the inked pixels: how many may be neither pencil nor ink
 _ACROSS = np.array([[2.0, -1.0, -1.0], [0.0, 3.0**0.5, -(3.0**0.5)]]).T / 6.0**0.5
 
 
@@ -137,7 +138,8 @@ def _turn(angle: Array) -> Array:
 def _kept_beside_pencil(ink: Array, pen_width: float) -> Array:
     """0 on lines that are much fainter than the ink of the page, else 1; (H, W) float32.
 
-    A page that is drawn in one strength has no pencil, however faint it is.
+    A page that is drawn in one strength has no pencil, however faint it is; nor has one whose
+    strengths pass into each other, as hardly and firmly drawn pencil does.
     """
     reach = 2 * max(1, round(0.75 * pen_width)) + 1
     strength = cv2.dilate(ink, np.ones((reach, reach), np.uint8))
@@ -150,6 +152,10 @@ def _kept_beside_pencil(ink: Array, pen_width: float) -> Array:
     level /= 255
     faint, strong = lines[lines <= level], lines[lines > level]
     if len(faint) == 0 or len(strong) == 0 or faint.mean() > _FAINTER * strong.mean():
+        return np.ones_like(ink)
+    third = (strong.mean() - faint.mean()) / 3
+    between = (lines > faint.mean() + third) & (lines < strong.mean() - third)
+    if between.mean() > _BETWEEN:
         return np.ones_like(ink)
     strong = strength > level
     return (strong & ~_touching_specks(strong, strength, reach)).astype(np.float32)

@@ -13,6 +13,7 @@
     smoothing   even, smooth points
                                                                     all of that is build_graph
     measure     width, darkness and colour of the ink along every branch
+    ignored     pencil under ink goes, if it is not wanted (without_pencil)
     dust        what is too small or too faint to be a stroke goes (sweep)
 
 All of it works on flat arrays, in NumPy and OpenCV only: fast enough (about 0.3 ms a junction)
@@ -31,6 +32,7 @@ from .cleanup import prune
 from .dust import sweep
 from .ends import place_ends
 from .gaps import bridge
+from .ignored import without_pencil
 from .junctions import resolve
 from .measure import measure
 from .ridge import Ridge
@@ -98,4 +100,4 @@ def _pixel_graph(chains: Chains, ridge: Ridge) -> PlanarGraph:
     return select(graph, np.concatenate([keep, np.ones(len(dots), bool)]))
 
 
-__all__ = ["build_graph", "measure", "sweep"]
+__all__ = ["build_graph", "measure", "sweep", "without_pencil"]

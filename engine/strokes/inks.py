@@ -1,4 +1,7 @@
-"""The few inks of a page: every stroke takes the exact colour of one of them."""
+"""The few inks of a page: every stroke takes the exact colour of one of them.
+
+Colours are told apart by their hue, pencil under black ink by its strength.
+"""
 
 from __future__ import annotations
 
@@ -6,13 +9,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..tint import density, tint
+from ..pencil import pencil
+from ..tint import NEUTRAL, branch_colors, tint
 from ..values import PlanarGraph
 
 Array = np.ndarray
+Color = tuple[int, int, int]
 
-_NEUTRAL = 0.3  # greatest chroma of black ink
 _BLACK = 110.0  # grey value below which a neutral ink is simply black
+_PENCIL = (130.0, 190.0)  # grey values of pencil under ink, so that it looks like that
 _HUES = 36  # bins round the colour circle
 _SMALLEST = 8.0  # pen widths of line that an ink of its own must have
 
@@ -21,7 +26,7 @@ _SMALLEST = 8.0  # pen widths of line that an ink of its own must have
 class Inks:
     """palette: sRGB of each ink; ink: (B,) which one a branch is drawn in."""
 
-    palette: tuple[tuple[int, int, int], ...]
+    palette: tuple[Color, ...]
     ink: Array
 
     @classmethod
@@ -36,34 +41,41 @@ class Inks:
         Args:
             length: (B,) px of each branch; pen: px.
         """
-        if graph.colors is None or graph.branch_count == 0:
-            return cls.black(graph.branch_count)
-        color = _branch_colors(graph)
-        across = tint(color)
-        chroma, hue = np.hypot(*across.T), np.arctan2(across[:, 1], across[:, 0])
+        if graph.branch_count == 0:
+            return cls.black(0)
         weight = length + 1e-6
-        peaks = _hue_peaks(hue, np.where(chroma > _NEUTRAL, weight, 0.0), _SMALLEST * pen)
-
-        ink = np.zeros(graph.branch_count, np.int64)
-        if len(peaks):
-            apart = np.abs((hue[:, None] - peaks + np.pi) % (2 * np.pi) - np.pi)
-            ink = np.where(chroma > _NEUTRAL, apart.argmin(1) + 1, 0)
-        palette = [_neutral(color[ink == 0], weight[ink == 0])]
-        palette += [_typical(color[ink == k], weight[ink == k]) for k in range(1, len(peaks) + 1)]
+        palette, ink = _colored(graph, weight, pen)
+        faint, strength = pencil(graph, ink == 0, length)
+        if faint.any():
+            ink[faint] = len(palette)
+            if graph.colors is not None:
+                color = branch_colors(graph)
+                palette[0] = _neutral(color[ink == 0], weight[ink == 0])
+            grey = round(float(np.interp(1 - strength, (0, 1), _PENCIL)))
+            palette.append((grey, grey, grey))
         return cls(tuple(palette), ink)
 
-    def color_of(self, branches: Array, length: Array) -> tuple[int, int, int]:
+    def color_of(self, branches: Array, length: Array) -> Color:
         """The ink in which most of a stroke is drawn; `length` of each of the branches."""
         total = np.bincount(self.ink[branches], length, minlength=len(self.palette))
         return self.palette[int(total.argmax())]
 
 
-def _branch_colors(graph: PlanarGraph) -> Array:
-    """The mean colour of each branch where it is darkest: (B, 3) float."""
-    weight = density(graph.colors).mean(1) ** 4 + 1e-6
-    start = graph.offsets[:-1]
-    total = np.add.reduceat(graph.colors * weight[:, None], start, axis=0)
-    return total / np.add.reduceat(weight, start)[:, None]
+def _colored(graph: PlanarGraph, weight: Array, pen: float) -> tuple[list[Color], Array]:
+    """The palette by hue, what is black or grey first; and (B,) which of it each branch is."""
+    ink = np.zeros(graph.branch_count, np.int64)
+    if graph.colors is None:
+        return [(0, 0, 0)], ink
+    color = branch_colors(graph)
+    across = tint(color)
+    chroma, hue = np.hypot(*across.T), np.arctan2(across[:, 1], across[:, 0])
+    peaks = _hue_peaks(hue, np.where(chroma > NEUTRAL, weight, 0.0), _SMALLEST * pen)
+    if len(peaks):
+        apart = np.abs((hue[:, None] - peaks + np.pi) % (2 * np.pi) - np.pi)
+        ink = np.where(chroma > NEUTRAL, apart.argmin(1) + 1, 0)
+    palette = [_neutral(color[ink == 0], weight[ink == 0])]
+    palette += [_typical(color[ink == k], weight[ink == k]) for k in range(1, len(peaks) + 1)]
+    return palette, ink
 
 
 def _hue_peaks(hue: Array, weight: Array, smallest: float) -> Array:
@@ -78,7 +90,7 @@ def _hue_peaks(hue: Array, weight: Array, smallest: float) -> Array:
     return (np.flatnonzero(top) + 0.5) / _HUES * 2 * np.pi - np.pi
 
 
-def _typical(color: Array, weight: Array) -> tuple[int, int, int]:
+def _typical(color: Array, weight: Array) -> Color:
     """The weighted median of the darker half: where the pen touched the paper fully."""
     if not len(color):
         return (0, 0, 0)
@@ -89,7 +101,7 @@ def _typical(color: Array, weight: Array) -> tuple[int, int, int]:
     return tuple(round(_weighted_median(color[dark, c], weight[dark])) for c in range(3))
 
 
-def _neutral(color: Array, weight: Array) -> tuple[int, int, int]:
+def _neutral(color: Array, weight: Array) -> Color:
     """Black, or the grey of a pencil."""
     grey = round(float(np.mean(_typical(color, weight))))
     return (0, 0, 0) if grey < _BLACK else (grey, grey, grey)

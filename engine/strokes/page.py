@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..pencil import undimmed
 from ..settings import Settings
 from ..values import PlanarGraph
 from .inks import Inks
@@ -19,7 +20,6 @@ SAMPLES_PER_PEN = 4  # samples along a line of one pen width
 _BLOB = 1.0  # pen widths around a junction where other lines spoil the width; twice that to be sure
 _UNKNOWN = 4.0  # px
 _FULL_INK = 60  # percentile of ink that counts as opaque
-_SOFT = 0.8  # px; how far a scanner spreads the ink of a line
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,9 +84,10 @@ class Page:
             np.stack([along, length[of_sample] - along], 1),
             np.inf,
         ).min(1, initial=np.inf)
-        opacity = (
-            np.ones(len(points)) if graph.strength is None else _opacity(graph.strength, widths)
-        )
+        inks = Inks.of(graph, length, pen) if settings.inks else Inks.black(graph.branch_count)
+        opacity = np.ones(len(points))
+        if graph.strength is not None:
+            opacity = _opacity(undimmed(graph.strength, widths), inks.ink[branch])
         free = (graph.degrees[graph.ends] <= 1).all(1)
         return cls(
             pen=pen,
@@ -97,15 +98,14 @@ class Page:
             trust=np.clip(near / (_BLOB * pen) - 1.0, 0.0, 1.0),
             length=length,
             lonely=free | (graph.degrees[graph.ends] == 2).all(1),
-            inks=Inks.of(graph, length, pen) if settings.inks else Inks.black(graph.branch_count),
+            inks=inks,
             settings=settings,
         )
 
 
-def _opacity(strength: Array, widths: Array) -> Array:
-    """(P,) how dense the ink is, relative to the page: thin lines are not faint because of that."""
-    half = np.maximum(widths, 0.5) / (2**1.5 * _SOFT)
-    peak = np.sqrt(1 - np.exp(-half * half * 4 / np.pi))  # erf, to one percent
-    ink = np.asarray(strength, np.float64) / peak
-    full = max(float(np.percentile(ink, _FULL_INK)), 1e-3) if len(ink) else 1.0
-    return np.clip(ink / full, 0.0, 1.0)
+def _opacity(ink: Array, of: Array) -> Array:
+    """(P,) how dense the ink is, relative to all that is drawn in the same one; of: (P,) which."""
+    full = np.ones(int(of.max(initial=0)) + 1)
+    for number in np.unique(of):
+        full[number] = max(float(np.percentile(ink[of == number], _FULL_INK)), 1e-3)
+    return np.clip(ink / full[of], 0.0, 1.0)
