@@ -35,8 +35,9 @@ def flatten_paper(gray: Array) -> Array:
     known = share > 0.1
     mean = _smooth_fill(_to_grid(rough * bare) / np.maximum(share, 1e-3), known)
     darkness = without_rules(rough - _from_grid(mean, gray.shape))
-    _gate(darkness, bare)
-    return np.minimum(darkness / _pen_level(darkness), 1.0)
+    pen = _pen_level(darkness)
+    _gate(darkness, bare, pen)
+    return np.minimum(darkness / _full_ink(darkness, pen), 1.0)
 
 
 def _light_paper(gray: Array) -> Array:
@@ -58,8 +59,22 @@ def _texture(rough: Array) -> Array:
     return _from_grid(np.minimum(1.25 * cv2.medianBlur(_to_grid(high), 5), 0.06), rough.shape)
 
 
-def _gate(darkness: Array, bare: Array) -> None:
-    """Shut out, in place, what is as weak as the grain; what is clearly darker stays as it is.
+def _pen_level(darkness: Array) -> float:
+    """How dark the pen of a page is, however much grain there is beside it: dark spots weigh most.
+
+    1 on a blank page.
+    """
+    peak = _block_max(cv2.GaussianBlur(darkness, (0, 0), 0.6))
+    inked = np.sort(peak[peak > 0.06])
+    if not inked.size:
+        return 1.0
+    weight = np.cumsum(np.square(inked, dtype=np.float64))
+    return float(inked[np.searchsorted(weight, 0.65 * weight[-1])])
+
+
+def _gate(darkness: Array, bare: Array, pen: float) -> None:
+    """Shut out, in place, what is as weak as the grain, or as a stain beside the pen; what is
+    clearly darker stays as it is.
 
     Judged on smoothed ink, where grain is weaker and the gaps in a pencil line are closed.
     """
@@ -68,18 +83,16 @@ def _gate(darkness: Array, bare: Array) -> None:
     share = _to_grid(calm)
     variance = _to_grid(np.square(smooth) * calm) / np.maximum(share, 1e-3)
     grain = np.sqrt(_smooth_fill(variance, share > 0.1))
-    low = _from_grid(3.0 * grain + 0.005, darkness.shape)
+    low = _from_grid(np.maximum(3.5 * grain + 0.005, 0.08 * pen), darkness.shape)
     darkness *= np.clip((smooth - low) / (0.6 * low), 0.0, 1.0)
     np.maximum(darkness, 0.0, out=darkness)
 
 
-def _pen_level(darkness: Array) -> Array:
+def _full_ink(darkness: Array, pen: float) -> Array:
     """The darkness of a full stroke around each pixel: between the page's and the local one."""
     peak = _block_max(cv2.GaussianBlur(darkness, (0, 0), 0.6))
-    inked = peak[peak > 0.06]
-    page = float(np.percentile(inked, 80)) if inked.size else 1.0
     local = cv2.GaussianBlur(cv2.dilate(peak, np.ones((7, 7), np.uint8)), (0, 0), 3)
-    return _from_grid(np.sqrt(np.clip(local, 0.15 * page, page) * page), darkness.shape)
+    return _from_grid(np.sqrt(np.clip(local, 0.15 * pen, pen) * pen), darkness.shape)
 
 
 def _block_max(image: Array) -> Array:

@@ -246,6 +246,24 @@ def test_shadow_and_grain_are_no_ink():
     assert (ink[clean == 255] > 0.2).mean() < 1e-3
 
 
+def test_specks_do_not_pass_for_the_pen():
+    line = 255.0 - drawn((400, 600), 2, [[30, 200], [570, 260]])
+    rng = np.random.default_rng(3)
+    specks = cv2.GaussianBlur((rng.random(line.shape) < 0.01).astype(np.float32), (0, 0), 1.0)
+    gray = 0.9 - 0.4 * line / 255 - 0.5 * np.minimum(specks, 0.2)
+    ink = flatten_paper(gray.astype(np.float32))
+    assert np.median(ink[line > 250]) > 0.8
+    assert np.quantile(ink[cv2.dilate(line, np.ones((15, 15))) == 0], 0.995) < 0.3
+
+
+def test_a_stain_beside_a_pen_is_paper():
+    line = 255.0 - drawn((400, 600), 4, [[30, 50], [570, 60]])
+    y = np.arange(400)[:, None] - 300 - 8 * np.sin(np.arange(600) / 40)
+    crease = 0.06 * np.exp(-((y / 4) ** 2))
+    ink = flatten_paper((0.95 * (1 - 0.9 * line / 255) - crease).astype(np.float32))
+    assert ink[250:].max() < 0.05
+
+
 def test_faint_pencil_beside_ink_stays_visible():
     dark = drawn((400, 600), 4, [[30, 50], [570, 60]])
     faint = drawn((400, 600), 4, [[30, 300], [570, 320]])
