@@ -5,7 +5,8 @@
 A page of N px is laid out of the white pages of the benchmark side by side, so that the ink grows
 with the area, as it does in a larger drawing by the same hand. Every method and size runs in a
 process of its own, once to warm up (that loads the networks) and then `--repeat` times; the median
-counts. Memory is the peak of the process, less what it held before the trace.
+counts. Memory is the peak of the process, less what it held before the trace. Where bpy is
+installed, the times of `benchmarks.blender` follow: writing, rerouting, the overlay.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ import sys
 import time
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import asdict, dataclass
+from importlib.util import find_spec
 from itertools import cycle
 from multiprocessing import get_context
 from pathlib import Path
@@ -160,6 +162,12 @@ def report(timings: list[Timing]) -> str:
     return text + markdown(head, rows)
 
 
+def _in_blender() -> str:
+    from .blender import report
+
+    return report()
+
+
 def main(argv: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(
         prog="python -m benchmarks.speed",
@@ -182,6 +190,9 @@ def main(argv: list[str] | None = None) -> int:
                 timings.append(job.result())
                 print(f"{method}, {size} px: {timings[-1].wall:.2f} s", file=sys.stderr)
     print(report(timings))
+    if find_spec("bpy"):
+        with ProcessPoolExecutor(1, get_context("spawn")) as pool:
+            print("\nIn Blender\n\n" + pool.submit(_in_blender).result())
     if options.json:
         options.json.write_text(json.dumps([asdict(t) for t in timings], indent=1), "utf-8")
     return 0

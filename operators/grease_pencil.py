@@ -212,8 +212,8 @@ def _set_tail(drawing: object, columns: dict[str, Column], start: int, domain: s
 
 
 def _strokes_and_points(drawing: object) -> tuple[int, int]:
-    count = len(drawing.strokes)
-    return count, len(drawing.attributes["position"].data) if count else 0
+    size = drawing.attributes.domain_size
+    return size("CURVE"), size("POINT")
 
 
 def _keyframe(data: bpy.types.ID, name: str, frame: int) -> object:

@@ -6,8 +6,7 @@ nothing and are made anew only when the routing or the colours change.
 
 from __future__ import annotations
 
-from collections import OrderedDict
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import bpy
@@ -18,6 +17,7 @@ from gpu_extras.batch import batch_for_shader
 from ..engine import InvoluteError
 from ..operators.view_state import Shown, shown_in, view_of
 from . import cards_drawing
+from .batches import forget, kept
 from .colors import Color
 from .overlay_geometry import rings, routes
 from .preferences import preferences_of
@@ -25,14 +25,15 @@ from .preferences import preferences_of
 if TYPE_CHECKING:
     from ..engine import Drawing
 
-_MAX_BATCHES = 16
-_batches: OrderedDict[tuple, object] = OrderedDict()
 _handles: list[object] = []
+_seen: dict[int, Shown] = {}
+"""By region: what one handler looked up for the other, within one redraw."""
 
 
 def draw_rings_and_routes() -> None:
     """POST_VIEW: everything that lies in the drawing's plane."""
     context = bpy.context
+    _seen.clear()
     if not _is_on(context):
         return
     for shown in _traced(context):
@@ -41,6 +42,7 @@ def draw_rings_and_routes() -> None:
             _draw_rings(context, shown)
             if shown.object == context.active_object and shown.junction is not None:
                 _draw_routes(context, shown)
+                _seen[context.region.as_pointer()] = shown
 
 
 def draw_labels() -> None:
@@ -48,15 +50,12 @@ def draw_labels() -> None:
     context = bpy.context
     if not _is_on(context) or context.region_data is None:
         return
-    try:
-        shown = shown_in(context)
-    except InvoluteError:
-        return
-    if shown is not None and shown.junction is not None:
-        cards_drawing.draw(context, shown)
     drag = view_of(context).drag
     if any(drag):
         cards_drawing.draw_drag(context, tuple(drag))
+    shown = _seen.pop(context.region.as_pointer(), None)
+    if shown is not None:
+        cards_drawing.draw(context, shown)
 
 
 def register() -> None:
@@ -69,7 +68,8 @@ def unregister() -> None:
     for handle in _handles:
         bpy.types.SpaceView3D.draw_handler_remove(handle, "WINDOW")
     _handles.clear()
-    _batches.clear()
+    _seen.clear()
+    forget()
 
 
 def pen_width(drawing: Drawing) -> float:
@@ -105,9 +105,9 @@ def _draw_rings(context: bpy.types.Context, shown: Shown) -> None:
         tuple(round(v, 4) for v in getattr(preferences, name))
         for name in ("color_sure", "color_doubtful", "color_locked")
     )
-    key = (shown.trace.stamp, tuple(shown.trace.placement.as_list()), scale, preferences.ring_size)
+    key = ("rings", *_state(shown), scale, preferences.ring_size)
     shader = gpu.shader.from_builtin("POLYLINE_FLAT_COLOR")
-    batch = _kept(key, lambda: _ring_batch(shader, shown, scale, preferences.ring_size))
+    batch = kept(key, lambda: _ring_batch(shader, shown, scale, preferences.ring_size))
     dark = gpu.shader.from_builtin("POLYLINE_UNIFORM_COLOR")
     _set_up(context, dark, 4.0)  # an edge, so that rings show on paper and on ink alike
     dark.uniform_float("color", (0.0, 0.0, 0.0, 0.35))
@@ -134,8 +134,8 @@ def _draw_routes(context: bpy.types.Context, shown: Shown) -> None:
     pairs = junction.alternatives[preview].pairs if previewing else junction.pairs
     shader = gpu.shader.from_builtin("POLYLINE_UNIFORM_COLOR")
     _set_up(context, shader, 7.0 if previewing else 4.5)
-    key = (shown.trace.stamp, tuple(shown.trace.placement.as_list()), junction.index, pairs)
-    for color, batch in _kept(key, lambda: _route_batches(shader, shown, pairs)):
+    key = ("routes", *_state(shown), junction.index, pairs)
+    for color, batch in kept(key, lambda: _route_batches(shader, shown, pairs)):
         shader.uniform_float("color", color)
         batch.draw(shader)
     _tidy_up()
@@ -155,13 +155,9 @@ def _route_batches(
     ]
 
 
-def _kept(key: tuple, make: Callable[[], object]) -> object:
-    """What was made for this key before, or is made now."""
-    if key not in _batches:
-        _batches[key] = make()
-        while len(_batches) > _MAX_BATCHES:
-            _batches.popitem(last=False)
-    return _batches[key]
+def _state(shown: Shown) -> tuple:
+    """What the batches of a drawing depend on: its content and where it lies in its object."""
+    return shown.trace.stamp, *shown.trace.placement.as_list()
 
 
 def _set_up(context: bpy.types.Context, shader: gpu.types.GPUShader, width: float) -> None:
