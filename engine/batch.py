@@ -46,7 +46,8 @@ class Task:
 class Outcome:
     """What became of a task.
 
-    report: seconds of each stage, strokes, junctions, doubtful, width, height, peak_rss_mb.
+    report: seconds of each stage, strokes, junctions, doubtful, width, height, peak_rss_mb; and
+        aligned, where that was asked for.
     error: one sentence, or None when the outputs are there.
     resumed: the outputs were there already.
     """
@@ -133,6 +134,7 @@ def perform(
 
 def summary(drawing) -> dict[str, Any]:
     """The figures of one drawing for a report."""
+    aligned = {"aligned": drawing.aligned} if drawing.settings.align else {}
     return {
         "seconds": {stage: round(value, 4) for stage, value in drawing.seconds.items()},
         "strokes": len(drawing.strokes),
@@ -141,6 +143,7 @@ def summary(drawing) -> dict[str, Any]:
         "width": drawing.size[0],
         "height": drawing.size[1],
         "peak_rss_mb": peak_rss_mb(),
+        **aligned,
     }
 
 

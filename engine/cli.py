@@ -450,6 +450,8 @@ def _trace_sequence(options: argparse.Namespace, writers: Mapping[str, sequence.
                 bar.say(f"{Path(frame.path).name}: {outcome.error}")
 
         result = sequence.run(plan, writers, progress)
+    if result.warning:
+        _say(f"warning: {result.warning}", DONE)
     if options.report:
         _write_json(Path(options.report), {"images": result.report()})
     return FAILED if result.failed and not options.skip_failed else DONE

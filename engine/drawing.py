@@ -37,6 +37,7 @@ class Drawing:
     size: (width, height).
     seconds: how long each stage took.
     scale: input pixels per working pixel, the unit in which routing judges lengths.
+    aligned: False when the page was to be aligned and had nothing to align by; not kept in files.
     """
 
     graph: PlanarGraph
@@ -47,6 +48,7 @@ class Drawing:
     settings: Settings
     seconds: Mapping[str, float] = field(default_factory=dict)
     scale: float = 1.0
+    aligned: bool = True
 
     @classmethod
     def from_routing(
@@ -71,6 +73,7 @@ class Drawing:
             size=scan.size,
             settings=settings,
             scale=float(scan.scale),
+            aligned=scan.aligned,
         )
         vars(drawing)["_page"] = page
         return drawing

@@ -26,6 +26,7 @@ _DARK = 0.35  # ink
 _MARGIN = 0.16  # of the page: how far from its edges holes and marks are looked for
 _DEEPEST = 0.15  # of the page: a wider black area is a drawn one
 _WORKING_SIDE = 3000  # px; larger pages are looked at smaller
+_LOOSE = 0.02  # of the distance between the holes: how far they may miss those of the first page
 _SIZES = (0.007, 0.09)  # of the page's longer side: smallest and largest hole or mark
 
 
@@ -47,17 +48,23 @@ def set_aside(scan: Scan, settings: Settings) -> Scan:
     """Take borders, holes and marks out of a scan; align it when the settings say where to.
 
     With `settings.align`, the page is turned and moved so that its holes or marks lie there; a page
-    without them stays as it is.
+    without such ones stays as it lies and says so.
     """
+    wanted = np.float32(settings.align).reshape(-1, 2) / scan.scale
     if not settings.marks or settings.provider == "given":
-        return scan
+        return replace(scan, aligned=not len(wanted))
     marks = find_marks(scan.ink, scan.pen_width)
     if marks.mask.any():
         scan = replace(scan, ink=np.where(marks.mask, np.float32(0), scan.ink))
-    target = np.float32(settings.align).reshape(-1, 2) / scan.scale
-    if len(target) < 2 or len(target) != len(marks.anchors):
+    if not len(wanted):
         return scan
-    return _moved(scan, rigid(marks.anchors, target))
+    if len(wanted) != len(marks.anchors):
+        return replace(scan, aligned=False)
+    motion = rigid(marks.anchors, wanted)
+    off = np.hypot(*(cv2.transform(marks.anchors[:, None], motion)[:, 0] - wanted).T).max()
+    if off > _LOOSE * np.hypot(*np.ptp(wanted, axis=0)):  # other holes than the first page's
+        return replace(scan, aligned=False)
+    return _moved(scan, motion)
 
 
 def anchors_of(scan: Scan) -> tuple[tuple[float, float], ...]:

@@ -24,6 +24,7 @@ class Scan:
     scale: input pixels per working pixel.
     size: (width, height) of the input in its own pixels.
     pen_width: typical width of a line, in working pixels.
+    aligned: False when it was to be aligned to other pages and has nothing to align by.
     """
 
     ink: Array
@@ -31,6 +32,7 @@ class Scan:
     scale: float
     size: tuple[int, int]
     pen_width: float
+    aligned: bool = True
 
 
 @dataclass(frozen=True, eq=False)

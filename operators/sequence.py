@@ -168,6 +168,10 @@ class INVOLUTE_OT_trace_sequence(
                 other.select_set(False)
             obj.select_set(True)
             context.view_layer.objects.active = obj
+        if job.unaligned:
+            from ..engine.sequence.command import unaligned
+
+            self.report({"WARNING"}, unaligned(job.unaligned))
         said = f"{self._written} keyframes"
         said += f", {self._kept} kept" if self._kept else ""
         said += f", {len(self._failed)} frames failed" if self._failed else ""

@@ -29,6 +29,7 @@ class SequenceJob(Job):
         self.frames = list(frames)
         super().__init__(self._progress(0))
         self._results: SimpleQueue[Result] = SimpleQueue()
+        self.unaligned: list[Frame] = []  # that should have been
         self._kept: set[int] = set()
         self._done = 0
         self._options = {"jobs": jobs, "parts": parts, "follow": follow}
@@ -58,6 +59,8 @@ class SequenceJob(Job):
         self.fraction = self._done / len(self.frames)
         if outcome.resumed:
             self._kept.add(frame.frame)
+        if outcome.report.get("aligned") is False:
+            self.unaligned.append(frame)
         if self.cancelled:
             raise Cancelled
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import closing
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -17,6 +17,8 @@ from .frames import Frame, FrameRange, number_frames, number_pages
 
 if TYPE_CHECKING:
     from ..drawing import Drawing
+
+_NAMED = 8  # pages that a warning names
 
 Writer = Callable[[str, Iterator[tuple[int, "Drawing"]], Path], None]
 
@@ -111,6 +113,12 @@ class Result:
     def failed(self) -> bool:
         return any(outcome.error for outcome in self.outcomes.values())
 
+    @property
+    def warning(self) -> str | None:
+        """A sentence about the pages that could not be aligned, or None."""
+        pages = [f for f, o in self.outcomes.items() if o.report.get("aligned") is False]
+        return unaligned(pages) if pages else None
+
     def report(self) -> list[dict[str, Any]]:
         """An entry for every frame, in order."""
         return [
@@ -124,6 +132,21 @@ class Result:
             }
             for frame, outcome in sorted(self.outcomes.items(), key=lambda item: item[0].number)
         ]
+
+
+def unaligned(pages: Iterable[Frame]) -> str:
+    """What to tell about pages that should have been aligned."""
+    names = [
+        f"{Path(page.path).name}, page {page.page + 1}" if page.page else Path(page.path).name
+        for page in sorted(pages, key=lambda page: page.number)
+    ]
+    shown = ", ".join(names[:_NAMED]) + (", ..." if len(names) > _NAMED else "")
+    if len(names) == 1:
+        return f"A page has no holes or marks like the first one's and stays as scanned: {shown}."
+    return (
+        f"{len(names)} pages have no holes or marks like the first one's and stay as scanned: "
+        f"{shown}."
+    )
 
 
 def plan(options: argparse.Namespace, settings: Settings, suffixes: Mapping[str, Any]) -> Plan:

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import json
+
 import cv2
 import numpy as np
 import pytest
 from involute.engine import Settings
+from involute.engine.cli import main
 from involute.engine.registration import anchors_of, find_marks, rigid, set_aside
 from involute.engine.scan import read_scan
 
@@ -142,8 +145,38 @@ def test_pages_are_brought_to_one_place():
 
 def test_a_page_without_holes_stays_where_it_lies():
     scan = scan_of(page("none"))
-    assert set_aside(scan, Settings(align=((1, 2), (3, 4), (5, 6)))) is scan
+    left = set_aside(scan, Settings(align=((1, 2), (3, 4), (5, 6))))
+    assert left.ink is scan.ink
+    assert not left.aligned
+    assert set_aside(scan, Settings()) is scan
     assert set_aside(scan_of(page()), Settings(marks=False)).ink[640, 450] > 0.9
+
+
+def test_a_page_with_other_holes_stays_where_it_lies():
+    scan = scan_of(page())
+    target = np.array(anchors_of(scan))
+    there = set_aside(scan, Settings(align=tuple(map(tuple, target + 9.0))))
+    wider = set_aside(scan, Settings(align=tuple(map(tuple, target * (1.2, 1.0)))))
+    assert there.aligned
+    assert not wider.aligned
+    assert np.array_equal(wider.ink, set_aside(scan, Settings()).ink)
+
+
+def test_pages_that_can_not_be_aligned_are_told(tmp_path, capsys):
+    for number, holes in enumerate(("acme", "none", "acme", "none"), 1):
+        cv2.imwrite(str(tmp_path / f"p{number}.png"), page(holes))
+    report, out = tmp_path / "report.json", tmp_path / "out"
+    fast = ["--provider", "classical", "--router", "geometric", "--format", "json"]
+    command = ["trace", str(tmp_path), "--sequence", "-o", str(out), "--report", str(report)]
+    assert main([*command, *fast, "--align"]) == 0
+    (said,) = capsys.readouterr().err.splitlines()
+    assert said.startswith("involute: warning: 2 pages have no holes")
+    assert said.endswith(": p2.png, p4.png.")
+    pages = json.loads(report.read_text("utf-8"))["images"]
+    assert [page["aligned"] for page in pages] == [True, False, True, False]
+    assert main([*command, *fast, "--overwrite"]) == 0
+    assert not capsys.readouterr().err
+    assert all("aligned" not in p for p in json.loads(report.read_text("utf-8"))["images"])
 
 
 def test_rigid_motion_is_found_exactly():
