@@ -3,9 +3,9 @@
     blender --factory-startup -P benchmarks/redraw.py -- ZIP SCAN [JSON]
 
 Installs the extension's ZIP for this session, traces the SCAN, looks at its most doubtful junction
-and redraws. Prints milliseconds of processor time of the draw handlers, those of OpenGL apart: without a
-graphics card it draws in there. "again" is the same a second time at once, since drawing in
-software leaves nothing in the processor's caches. "redraw" is a whole one, wall time.
+and redraws. Prints milliseconds of processor time of the draw handlers, those of OpenGL apart.
+(Without a graphics card it draws in there.) "again" is the same a second time at once, since
+drawing in software leaves nothing in the processor's caches. "redraw" is a whole one, wall time.
 Standalone: nothing of the project can be imported in that Blender.
 """
 
