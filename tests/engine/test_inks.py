@@ -93,3 +93,19 @@ def test_ignored_pencil_leaves_the_ink(level: float) -> None:
     found = lengths(vectorize(both, Settings(ignore_inks=("gray",))))
     assert set(found) == {BLACK}
     assert found[BLACK] == pytest.approx(length_of(INK), rel=0.1)
+
+
+def test_a_line_does_not_become_black_where_black_ones_end_on_it() -> None:
+    paper = np.full((400, 400, 3), 245.0)
+    blue = [np.array([[40.0, 100], [360, 105]]), np.array([[40.0, 300], [360, 290]])]
+    black = [np.array([[40.0, y], [360, y + 130]]) for y in (20.0, 45, 205, 230)]  # at 22 degrees
+    for lines, color in ((blue, (110, 150, 220)), (black, (30, 30, 35))):
+        for points in lines:
+            share = np.zeros((400, 400), np.uint8)
+            cv2.polylines(share, [np.int32(points * 16)], False, 255, 5, cv2.LINE_AA, 4)
+            share = cv2.GaussianBlur(share / 255, (0, 0), 0.7)[..., None]
+            paper *= 1 - share + share * np.array(color) / 255
+    found = lengths(vectorize(np.clip(paper, 0, 255).astype(np.uint8)))
+    assert set(found) - {BLACK} == {max(found)}
+    assert found[max(found)] == pytest.approx(length_of(blue), rel=0.1)
+    assert found[BLACK] == pytest.approx(length_of(black), rel=0.1)
