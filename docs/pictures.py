@@ -42,9 +42,6 @@ def inks() -> None:
     strokes = vectorize(page[..., ::-1]).strokes
     black = [stroke for stroke in strokes if max(stroke.color) < 60]
     blue = [stroke for stroke in strokes if max(stroke.color) >= 60]
-    print(
-        f"inks: {len(black)} black strokes, {len({s.color for s in blue})} other ink, {len(blue)}"
-    )
     layers = [layer(found, page.shape) for found in (black, blue)]
     rule = np.full((page.shape[0], 3, 3), 150, np.uint8)
     three = np.hstack([page, rule, layers[0], rule, layers[1]])
