@@ -7,6 +7,7 @@
     halves      the course of every half-branch, outside its blob
     blobs       which branchings belong together
     curves      smooth curves through a blob
+    twins       two of them on one ridge, told apart by the picture
     junctions   the graph with its junctions where these curves meet
     ends        free ends where the line ends
     gaps        lines go on where the pen broke off

@@ -19,7 +19,7 @@ from .topology import connected, lengths
 Array = np.ndarray
 
 LINK = 4.0  # px; branchings linked by less are one blob
-SHARED = 36.0  # px; the longest piece that may carry two lines at once
+SHARED = 60.0  # px; the longest piece that may carry two lines at once
 ASIDE = 1.3  # px; how far beside a curve the piece may lie that it explains
 GAIN = 0.15  # what a merger must save, in units of a half-branch that ends
 LARGEST = 8  # half-branches of one blob

@@ -23,8 +23,10 @@ SAMPLES = 17  # points of a curve within the blob, exits included
 ALONE = 1.0  # cost of a half-branch that runs on into none
 NOISE = 0.2  # px; how far ridge points stray from a smooth line
 TURN, SWERVE = np.radians(40.0), np.radians(20.0)  # a bend, and a bend with a counter-bend
+BENT = 0.8  # how much of the bend that the sides foretell is free
 INK = 0.35  # a curve must stay this bright, compared with the fainter of its two sides
 NEVER = 1e3
+FADE = 6  # how fast a curve goes over from the ridge point at its exit to the cubic
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,7 +59,10 @@ class Fits:
         """(K, SAMPLES, 2) points from the first exit to the second."""
         t = np.linspace(0, 1, SAMPLES)
         x = self.span[:, :1] * (1 - t) + self.span[:, 1:] * t
-        y = _value(self.coefficients, x) + self.offset[:, :1] * (1 - t) + self.offset[:, 1:] * t
+        # Off the exits a good cubic knows better than any single ridge point.
+        power = 1 + (FADE - 1) * np.exp(-self.cost)[:, None]
+        y = _value(self.coefficients, x)
+        y = y + self.offset[:, :1] * (1 - t) ** power + self.offset[:, 1:] * t**power
         ax, ay = self.axis[:, None, 0], self.axis[:, None, 1]
         x = x * self.scale[:, None]
         return self.origin[:, None] + np.stack([x * ax - y * ay, x * ay + y * ax], -1)
@@ -131,6 +136,10 @@ def _fit(half: Halves, pairs: Array, value: Array) -> Fits:
     wide = np.maximum((ends[:, 1] - ends[:, 0]) * scale[some], 1e-9)
     lean = np.arctan2(across[:, 1] - across[:, 0], wide)
     turn = angle[:, 1] - angle[:, 0]
+    # A curve that bends as both of its sides do bends no more than it must.
+    due = (half.bend[b] - half.bend[a]) / 2 * gap
+    due = np.where(turn * due > 0, np.minimum(np.abs(due), np.abs(turn)), 0.0)
+    turn = np.abs(turn) - BENT * due
     swerve = angle.mean(1) - lean
     total = (rms / NOISE) ** 2 + (turn / TURN) ** 2 + (swerve / SWERVE) ** 2
     total[(ends[:, 1] < ends[:, 0]) | ~np.isfinite(total)] = NEVER

@@ -30,6 +30,7 @@ class Halves:
         on; the weight is small where a neighbour spoils the ridge, 0 past the end of the branch.
     level: (2B,) float64, mean brightness of the ridge along that course.
     center (2B, 2), outward (2B, 2): its middle, and the unit direction away from the blob.
+    bend: (2B,) float64, curvature there, 1/px; positive when it turns towards +y from +x.
     """
 
     exit: Array
@@ -38,6 +39,7 @@ class Halves:
     level: Array
     center: Array
     outward: Array
+    bend: Array
 
 
 def _spoilt(graph: PlanarGraph, shape: tuple[int, int], reach: float) -> Array:
@@ -98,7 +100,9 @@ def read_halves(graph: PlanarGraph, value: Array, pen: float) -> Halves:
     near = weights * np.exp(-((np.arange(WINDOW) / 8.0) ** 2))
     center = _mean(points, near)
     outward = direction(points, near)
-    return Halves(begin.astype(np.int32), points, weights, level, center, outward)
+    return Halves(
+        begin.astype(np.int32), points, weights, level, center, outward, _bend(points, weights)
+    )
 
 
 def direction(points: Array, weights: Array) -> Array:
@@ -109,6 +113,20 @@ def direction(points: Array, weights: Array) -> Array:
     place = place - ((weights * place).sum(1) / total)[:, None]
     slope = ((weights * place)[..., None] * centred).sum(1)
     return slope / np.maximum(np.hypot(*slope.T), 1e-9)[:, None]
+
+
+def _bend(points: Array, weights: Array) -> Array:
+    """(K,) curvature of each course: of the parabola through it, along its mean direction."""
+    along = direction(points, weights)
+    offset = points - _mean(points, weights)[:, None]
+    x = (offset * along[:, None]).sum(-1)
+    y = along[:, None, 0] * offset[..., 1] - along[:, None, 1] * offset[..., 0]
+    powers = x[..., None] ** np.arange(3)
+    weighted = powers * weights[..., None]
+    # Short courses say little about how they bend.
+    normal = np.einsum("kni,knj->kij", weighted, powers) + np.diag([1e-6, 1e-3, 50.0])
+    fit = np.linalg.solve(normal, np.einsum("kni,kn->ki", weighted, y)[..., None])[..., 0]
+    return 2 * fit[:, 2]
 
 
 def _mean(points: Array, weights: Array) -> Array:

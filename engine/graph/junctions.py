@@ -18,6 +18,7 @@ from .curves import SAMPLES, Continuations, best_pairing, extend, pairs_within
 from .halves import Halves, read_halves
 from .sampling import sample
 from .topology import connected, join
+from .twins import told_apart
 
 Array = np.ndarray
 
@@ -82,7 +83,8 @@ def _rebuild(
 
     to_middle = np.hypot(*(middle[blob[stems]] - exits[stems]).T)
     path = extend(half.points[stems], half.weights[stems], to_middle + MERGE + 1.0)
-    curves = np.concatenate([found.pick(chosen).sampled(), path])
+    smooth = told_apart(found.pick(chosen).sampled(), blob[through[:, 0]], through, half, value)
+    curves = np.concatenate([smooth, path])
     curve_blob = np.concatenate([blob[through[:, 0]], blob[stems]]).astype(np.int64)
     is_stem = np.arange(len(curves)) >= len(chosen)
 

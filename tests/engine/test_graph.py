@@ -193,3 +193,18 @@ def test_ends_that_only_come_near_each_other_stay_apart() -> None:
     parallel = [np.array([[20.0, 30.0], [60.0, 30.0]]), np.array([[60.0, 33.5], [100.0, 33.5]])]
     corner = [np.array([[20.0, 70.0], [60.0, 70.0]]), np.array([[62.5, 72.5], [62.5, 110.0]])]
     assert graph_of(*parallel, *corner).branch_count == 4
+
+
+def test_shallow_crossings_are_found_along_the_lines() -> None:
+    """At six degrees a tenth of a px across the lines is a whole one along them."""
+    errors = []
+    for turn in np.arange(3.0, 180.0, 22.5):
+        t = np.linspace(-48, 48, 80)[:, None]
+        way = np.array([np.cos(np.radians(turn)), np.sin(np.radians(turn))])
+        side = np.array([-way[1], way[0]])
+        slope = np.tan(np.radians(6.0))
+        arc = MIDDLE + t * way + (slope * t + 0.0005 * t**2) * side
+        graph = graph_of(MIDDLE + t[[0, -1]] * way, arc)
+        errors.append(off(graph, MIDDLE))
+    assert np.median(errors) < 0.5
+    assert max(errors) < 0.8
