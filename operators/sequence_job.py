@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from contextlib import closing, suppress
-from hashlib import blake2b
 from pathlib import Path
 from queue import Empty, SimpleQueue
 from typing import TYPE_CHECKING
 
 from ..engine import Cancelled, InvoluteError, Settings
 from ..engine.sequence import Frame
+from ..engine.sequence.cache import folder_for, tidy
 from .job import Job
 
 if TYPE_CHECKING:
@@ -46,6 +46,7 @@ class SequenceJob(Job):
     def work(self) -> None:
         from ..engine.sequence import trace_sequence  # brings in OpenCV
 
+        tidy(self._options["parts"].parent, used=self._options["parts"])
         drawings = trace_sequence(self.frames, self._settings, progress=self._tick, **self._options)
         with closing(drawings):
             for frame, drawing in drawings:
@@ -70,7 +71,5 @@ class SequenceJob(Job):
 
 def parts_folder(cache: Path, frames: Sequence[Frame]) -> Path:
     """Where the drawings of these files are kept, so that only changed ones are traced again."""
-    place = str(Path(frames[0].path).absolute().parent) if frames else ""
-    if frames and frames[0].page != frames[-1].page:
-        place = str(Path(frames[0].path).absolute())
-    return cache / blake2b(place.encode("utf-8"), digest_size=8).hexdigest()
+    first = Path(frames[0].path)
+    return folder_for(cache, first if frames[0].page != frames[-1].page else first.parent)
