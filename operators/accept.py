@@ -6,6 +6,7 @@ import bpy
 from bpy.props import FloatProperty
 
 from .junction_operator import JunctionOperator
+from .language import message
 from .view_state import shown_in
 
 
@@ -29,7 +30,7 @@ class INVOLUTE_OT_accept(JunctionOperator, bpy.types.Operator):
         result = self.change(context, lambda d: d.accept_above(self.probability / 100))
         if result == {"FINISHED"}:
             locked = int(shown_in(context).table.locked.sum()) - before
-            self.report({"INFO"}, f"{locked} junctions accepted")
+            self.report({"INFO"}, message("{count} junctions accepted", count=locked))
         return result
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import bpy
 
 from .junction_operator import JunctionOperator
+from .language import message
 from .view_state import shown_in
 
 
@@ -21,7 +22,7 @@ class INVOLUTE_OT_ask_again(JunctionOperator, bpy.types.Operator):
             after = shown_in(context).trace.drawing
             pairs = zip(before.junctions, after.junctions, strict=True)
             changed = sum(one.pairs != other.pairs for one, other in pairs)
-            self.report({"INFO"}, f"{changed} junctions changed")
+            self.report({"INFO"}, message("{count} junctions changed", count=changed))
         return result
 
 

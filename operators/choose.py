@@ -8,6 +8,7 @@ from bpy.props import BoolProperty, IntProperty
 
 from .cards import Card, card_at, layout
 from .junction_operator import JunctionOperator
+from .language import label
 from .under_mouse import junction_under, places_on_screen
 from .view_state import Shown, make_current, redraw, shown_in, view_of
 
@@ -54,8 +55,10 @@ class INVOLUTE_OT_choose(JunctionOperator, bpy.types.Operator):
             return {"CANCELLED"}
         shown.view.choosing = True
         context.workspace.status_text_set(
-            "Point at a card to preview, click or Enter to apply, wheel or arrows for the next, "
-            "L locks, Esc leaves"
+            label(
+                "Point at a card to preview, click or Enter to apply, wheel or arrows for the "
+                "next, L locks, Esc leaves"
+            )
         )
         context.window_manager.modal_handler_add(self)
         redraw(context)

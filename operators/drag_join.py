@@ -6,6 +6,7 @@ import bpy
 import numpy as np
 
 from .junction_operator import JunctionOperator
+from .language import message
 from .picking import nearest_pair
 from .under_mouse import halves_under
 from .view_state import Shown, make_current, redraw, view_of
@@ -48,7 +49,8 @@ class INVOLUTE_OT_drag_join(JunctionOperator, bpy.types.Operator):
         vertex = found[0].trace.drawing.graph.half_vertex if found else None
         pair = nearest_pair(self._first, found[1], vertex) if found else None
         if pair is None:
-            self.report({"INFO"}, "Drag from one line to another that meets it at a junction.")
+            said = message("Drag from one line to another that meets it at a junction.")
+            self.report({"INFO"}, said)
             return {"CANCELLED"}
         make_current(context, found[0], _junction_of(found[0], pair[0]))
         return bpy.ops.involute.join("EXEC_DEFAULT", True, first=pair[0], second=pair[1])

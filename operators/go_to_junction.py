@@ -8,6 +8,7 @@ from bpy.props import BoolProperty, EnumProperty, IntProperty
 from mathutils import Vector
 
 from .junction_operator import JunctionOperator
+from .language import message
 from .view_state import Shown, redraw, select, shown_in
 
 _CLOSE_UP = 60.0  # pen widths that the view shows across, at most
@@ -56,7 +57,7 @@ class INVOLUTE_OT_step_junction(JunctionOperator, bpy.types.Operator):
         shown = shown_in(context)
         listed = shown.listed
         if len(listed) == 0:
-            self.report({"INFO"}, "No junction passes the filters.")
+            self.report({"INFO"}, message("No junction passes the filters."))
             return {"CANCELLED"}
         here = np.flatnonzero(listed == shown.view.junction)
         if len(here):

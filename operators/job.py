@@ -11,12 +11,13 @@ from ..engine import Cancelled, InvoluteError
 class Job:
     """What all traces in the background share; subclasses say in `work` what is done.
 
-    stage, fraction: where it is, for progress bars.
+    stage, fraction: where it is, for progress bars; counts fill the places in `stage`.
     problem: the sentence that says why all of it failed.
     """
 
     def __init__(self, stage: str) -> None:
         self.stage = stage
+        self.counts: dict[str, int] = {}
         self.fraction = 0.0
         self.cancelled = False
         self.problem = ""

@@ -6,6 +6,7 @@ import bpy
 from bpy.props import IntProperty
 
 from .junction_operator import JunctionOperator
+from .language import message
 from .view_state import shown_in
 
 
@@ -23,7 +24,8 @@ class INVOLUTE_OT_join(JunctionOperator, bpy.types.Operator):
         two = {self.first, self.second}
         junction = next((j for j in drawing.junctions if two <= set(j.half_branches)), None)
         if junction is None or len(two) != 2:
-            self.report({"ERROR"}, "Only two lines that meet at one junction can be joined.")
+            said = message("Only two lines that meet at one junction can be joined.")
+            self.report({"ERROR"}, said)
             return {"CANCELLED"}
         pairs = [pair for pair in junction.pairs if two.isdisjoint(pair)]
         pairs.append((min(two), max(two)))

@@ -9,6 +9,7 @@ import bpy
 
 from ..engine import InvoluteError
 from . import rerouting
+from .language import message
 from .view_state import redraw, select, shown_in
 
 if TYPE_CHECKING:
@@ -25,10 +26,10 @@ class JunctionOperator:
         try:
             found = shown_in(context) is not None
         except InvoluteError as problem:
-            cls.poll_message_set(str(problem))
+            cls.poll_message_set(message(problem))
             return False
         if not found:
-            cls.poll_message_set("Select a drawing that Involute has traced")
+            cls.poll_message_set(message("Select a drawing that Involute has traced"))
         return found
 
     def change(self, context: bpy.types.Context, how: Callable[[Drawing], Drawing]) -> set[str]:
@@ -37,7 +38,7 @@ class JunctionOperator:
         try:
             trace = rerouting.change(shown.object.data, shown.frame, shown.trace.key, how)
         except InvoluteError as problem:
-            self.report({"ERROR"}, str(problem))
+            self.report({"ERROR"}, message(problem))
             return {"CANCELLED"}
         if shown.view.key == shown.trace.key:
             shown.view.key = trace.key
@@ -52,11 +53,12 @@ class JunctionOperator:
         shown = shown_in(context)
         index = shown.view.junction if junction < 0 else junction
         if not 0 <= index < len(shown.table):
-            self.report({"ERROR"}, "Choose a junction first.")
+            self.report({"ERROR"}, message("Choose a junction first."))
             return {"CANCELLED"}
         ways = shown.trace.drawing.junctions[index].alternatives
         if alternative >= len(ways):
-            self.report({"ERROR"}, f"This junction has {len(ways)} alternatives.")
+            said = message("This junction has {count} alternatives.", count=len(ways))
+            self.report({"ERROR"}, said)
             return {"CANCELLED"}
         select(shown, index)
         pairs = ways[alternative].pairs

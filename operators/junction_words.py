@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .language import label
+
 if TYPE_CHECKING:
     from ..engine import Drawing, Junction
 
@@ -40,7 +42,8 @@ def sentence(names: dict[int, str], pairs: Iterable[tuple[int, int]]) -> str:
     joined = sorted("–".join(sorted((names[a], names[b]))) for a, b in pairs)
     loose = sorted(set(names.values()) - {names[half] for pair in pairs for half in pair})
     if loose:
-        joined.append(f"{' '.join(loose)} {'ends' if len(loose) == 1 else 'end'}")
+        end = "{lines} ends" if len(loose) == 1 else "{lines} end"
+        joined.append(label(end, lines=" ".join(loose)))
     return ", ".join(joined)
 
 

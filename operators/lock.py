@@ -6,6 +6,7 @@ import bpy
 from bpy.props import IntProperty
 
 from .junction_operator import JunctionOperator
+from .language import message
 from .view_state import shown_in
 
 
@@ -23,7 +24,7 @@ class INVOLUTE_OT_lock(JunctionOperator, bpy.types.Operator):
         shown = shown_in(context)
         index = shown.view.junction if self.junction < 0 else self.junction
         if not 0 <= index < len(shown.table):
-            self.report({"ERROR"}, "Choose a junction first.")
+            self.report({"ERROR"}, message("Choose a junction first."))
             return {"CANCELLED"}
         if shown.table.locked[index]:
             return self.change(context, lambda drawing: drawing.unlock(index))

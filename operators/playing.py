@@ -10,6 +10,7 @@ import bpy
 
 from ..engine import InvoluteError
 from ..engine.sequence import Frame, number_frames, number_pages
+from .language import message
 from .sources import SUFFIXES
 
 
@@ -22,12 +23,14 @@ def frames_of_files(
         InvoluteError: there are none, or they are not of one sequence.
     """
     if not folder.is_dir():
-        raise InvoluteError(f"There is no folder {folder}; check the path.")
+        raise InvoluteError(message("There is no folder {path}; check the path.", path=folder))
     found = [folder / name for name in names] or [
         path for path in folder.iterdir() if path.suffix.lower() in SUFFIXES
     ]
     if not found:
-        raise InvoluteError(f"There is no picture in {folder}; choose another folder.")
+        raise InvoluteError(
+            message("There is no picture in {path}; choose another folder.", path=folder)
+        )
     return number_frames(found, start=start, step=step)
 
 
@@ -64,7 +67,9 @@ def frames_of_empty(
         f for f in frames if f.number - user.frame_offset in range(1, user.frame_duration + 1)
     ]
     if not frames:
-        raise InvoluteError(f"{empty.name} plays no frame; set its Frames to more than 0.")
+        raise InvoluteError(
+            message("{name} plays no frame; set its Frames to more than 0.", name=empty.name)
+        )
     if start is None and step == 1:
         shift = user.frame_start - 1 - user.frame_offset
         return [replace(f, frame=f.number + shift) for f in frames]
@@ -76,7 +81,9 @@ def _like(path: Path) -> list[Frame]:
     """The files that are named as this one, but for the number."""
     stem = path.stem.rstrip("0123456789")
     if not path.parent.is_dir():
-        raise InvoluteError(f"There is no folder {path.parent}; find the images again.")
+        raise InvoluteError(
+            message("There is no folder {path}; find the images again.", path=path.parent)
+        )
     found = [
         other
         for other in path.parent.iterdir()
@@ -85,7 +92,7 @@ def _like(path: Path) -> list[Frame]:
         and other.stem != stem
     ]
     if not found:
-        raise InvoluteError(f"There is no file {path}; find the images again.")
+        raise InvoluteError(message("There is no file {path}; find the images again.", path=path))
     # The numbers as written: Blender plays by them.
     return sorted(
         (Frame(int(f.stem[len(stem) :]), int(f.stem[len(stem) :]), str(f)) for f in found),

@@ -6,6 +6,7 @@ import bpy
 from bpy.props import IntProperty
 
 from .junction_operator import JunctionOperator
+from .language import message
 from .view_state import select, shown_in
 
 
@@ -32,7 +33,7 @@ class INVOLUTE_OT_separate(JunctionOperator, bpy.types.Operator):
         else:
             junction = shown.junction
         if junction is None:
-            self.report({"ERROR"}, "Choose a junction first.")
+            self.report({"ERROR"}, message("Choose a junction first."))
             return {"CANCELLED"}
         pairs = [p for p in junction.pairs if self.half >= 0 and self.half not in p]
         select(shown, junction.index)

@@ -14,6 +14,7 @@ from ..engine.sequence import Frame
 from . import grease_pencil as gp
 from . import state
 from .file_choice import ChosenFiles, FileChoice
+from .language import message
 from .placement import Placement, front_view, on_empty
 from .placing import PlacingSettings, placing_values, stand
 from .playing import frames_of_empty, frames_of_files, plays_frames
@@ -126,7 +127,9 @@ class INVOLUTE_OT_trace_sequence(
         for frame, drawing, unchanged in job.results():
             if isinstance(drawing, InvoluteError):
                 self._failed.append(frame)
-                self.report({"WARNING"}, f"Frame {frame}: {drawing}")
+                self.report(
+                    {"WARNING"}, message("Frame {frame}", frame=frame) + f": {message(drawing)}"
+                )
                 continue
             obj = self._object(context, drawing.size)
             if self.resume and unchanged and state.keys_at_exactly(obj.data, frame):
@@ -157,10 +160,10 @@ class INVOLUTE_OT_trace_sequence(
 
     def finish(self, context: bpy.types.Context, job: SequenceJob) -> set[str]:
         if job.problem:
-            self.report({"ERROR"}, job.problem)
+            self.report({"ERROR"}, message(job.problem))
         if not self._written and not self._kept:
             if not (job.problem or job.cancelled):
-                self.report({"ERROR"}, "None of the frames could be traced.")
+                self.report({"ERROR"}, message("None of the frames could be traced."))
             return {"CANCELLED"}
         obj = bpy.data.objects.get(self._target)
         if context.mode == "OBJECT" and obj is not None:
@@ -172,10 +175,14 @@ class INVOLUTE_OT_trace_sequence(
             from ..engine.sequence.command import unaligned
 
             self.report({"WARNING"}, unaligned(job.unaligned))
-        said = f"{self._written} keyframes"
-        said += f", {self._kept} kept" if self._kept else ""
-        said += f", {len(self._failed)} frames failed" if self._failed else ""
-        self.report({"INFO"}, said + (", then cancelled" if job.cancelled else ""))
+        said = [message("{count} keyframes", count=self._written)]
+        if self._kept:
+            said.append(message("{count} kept", count=self._kept))
+        if self._failed:
+            said.append(message("{count} frames failed", count=len(self._failed)))
+        if job.cancelled:
+            said.append(message("then cancelled"))
+        self.report({"INFO"}, ", ".join(said))
         return {"FINISHED"}
 
 

@@ -27,7 +27,8 @@ class SequenceJob(Job):
         self, frames: Sequence[Frame], settings: Settings, *, jobs: int, parts: Path, follow: bool
     ) -> None:
         self.frames = list(frames)
-        super().__init__(self._progress(0))
+        super().__init__("{done} of {count} frames")
+        self.counts = {"done": 0, "count": len(self.frames)}
         self._results: SimpleQueue[Result] = SimpleQueue()
         self.unaligned: list[Frame] = []  # that should have been
         self._kept: set[int] = set()
@@ -56,7 +57,7 @@ class SequenceJob(Job):
 
     def _tick(self, frame: Frame, outcome: Outcome) -> None:
         self._done += 1
-        self.stage = self._progress(self._done)
+        self.counts = self.counts | {"done": self._done}
         self.fraction = self._done / len(self.frames)
         if outcome.resumed:
             self._kept.add(frame.frame)
@@ -64,9 +65,6 @@ class SequenceJob(Job):
             self.unaligned.append(frame)
         if self.cancelled:
             raise Cancelled
-
-    def _progress(self, done: int) -> str:
-        return f"{done} of {len(self.frames)} frames"
 
 
 def parts_folder(cache: Path, frames: Sequence[Frame]) -> Path:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from .language import label
+
 if TYPE_CHECKING:
     import bpy
 
@@ -57,5 +59,5 @@ def _flags(layout: bpy.types.UILayout, source: object, name: str) -> None:
     split = layout.split(factor=0.4)
     split.alignment = "RIGHT"
     split.label(text=source.bl_rna.properties[name].name)
-    chosen = ", ".join(sorted(value.title() for value in getattr(source, name)))
+    chosen = ", ".join(sorted(label(value.title()) for value in getattr(source, name)))
     split.prop_menu_enum(source, name, text=chosen or "None")

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..engine import InvoluteError
+from .language import message
 
 if TYPE_CHECKING:
     import bpy
@@ -63,7 +64,11 @@ def from_image(image: bpy.types.Image, empty: bpy.types.Object | None = None) ->
             return Source(name, path, empty=shown_by)
     width, height = image.size
     if not (width and height and len(image.pixels)):
-        raise InvoluteError(f"The image {image.name!r} has no pixels; reload it or choose another.")
+        raise InvoluteError(
+            message(
+                "The image {name!r} has no pixels; reload it or choose another.", name=image.name
+            )
+        )
     return Source(name, _pixels(image), empty=shown_by)
 
 

@@ -13,6 +13,7 @@ from ..engine import InvoluteError
 from . import grease_pencil as gp
 from . import sources, state
 from .file_choice import ChosenFiles
+from .language import message
 from .placement import Placement, front_view, on_empty
 from .placing import PlacingSettings, stand
 from .settings_layout import draw_placing, draw_settings
@@ -58,7 +59,7 @@ class INVOLUTE_OT_trace(Tracing, ChosenFiles, PlacingSettings, TraceSettings, bp
 
     def finish(self, context: bpy.types.Context, job: Worker) -> set[str]:
         if job.cancelled:
-            self.report({"INFO"}, "Tracing was cancelled.")
+            self.report({"INFO"}, message("Tracing was cancelled."))
             return {"CANCELLED"}
         done = [result for result in job.results if result.drawing is not None]
         failed = [result for result in job.results if result.drawing is None]
@@ -66,14 +67,14 @@ class INVOLUTE_OT_trace(Tracing, ChosenFiles, PlacingSettings, TraceSettings, bp
             if done:
                 self._write(context, done)
         except InvoluteError as problem:
-            self.report({"ERROR"}, str(problem))
+            self.report({"ERROR"}, message(problem))
             return {"CANCELLED"}
         if not done:
             problem = failed[0].problem if failed else job.problem
-            self.report({"ERROR"}, problem or "There is nothing to trace.")
+            self.report({"ERROR"}, message(problem or "There is nothing to trace."))
             return {"CANCELLED"}
         for result in failed:
-            self.report({"WARNING"}, f"{result.source.name}: {result.problem}")
+            self.report({"WARNING"}, f"{result.source.name}: {message(result.problem)}")
         self._report_counts([result.drawing for result in done])
         return {"FINISHED"}
 
@@ -95,7 +96,9 @@ class INVOLUTE_OT_trace(Tracing, ChosenFiles, PlacingSettings, TraceSettings, bp
         if self.image:
             image = bpy.data.images.get(self.image)
             if image is None:
-                raise InvoluteError(f"There is no image {self.image!r} in this file.")
+                raise InvoluteError(
+                    message("There is no image {name!r} in this file.", name=self.image)
+                )
             return [sources.from_image(image)]
         empty = context.active_object
         if not is_image_empty(empty):
@@ -105,14 +108,20 @@ class INVOLUTE_OT_trace(Tracing, ChosenFiles, PlacingSettings, TraceSettings, bp
     def _report_counts(self, drawings: Sequence[Drawing]) -> None:
         strokes = sum(len(drawing.strokes) for drawing in drawings)
         if strokes == 0 and not any(drawing.fills for drawing in drawings):
-            self.report({"WARNING"}, "There are no lines in the picture.")
+            self.report({"WARNING"}, message("There are no lines in the picture."))
             return
         junctions = sum(len(drawing.junctions) for drawing in drawings)
         doubtful = sum(len(drawing.doubtful) for drawing in drawings)
         seconds = sum(sum(drawing.seconds.values()) for drawing in drawings)
         self.report(
             {"INFO"},
-            f"{strokes} strokes, {junctions} junctions ({doubtful} doubtful), {seconds:.1f} s",
+            message(
+                "{strokes} strokes, {junctions} junctions ({doubtful} doubtful), {seconds:.1f} s",
+                strokes=strokes,
+                junctions=junctions,
+                doubtful=doubtful,
+                seconds=seconds,
+            ),
         )
 
     def _write(self, context: bpy.types.Context, done: Sequence[Result]) -> None:

@@ -62,7 +62,7 @@ class TraceSettings:
     ignore_inks: EnumProperty(
         name="Ignore Inks",
         description="Inks that are not traced, such as a blue construction pencil",
-        items=[(name, name.title(), f"Don't trace {name} lines") for name in INKS],
+        items=[(name, name.title(), "Don't trace lines of this color") for name in INKS],
         default=set(_DEFAULTS.ignore_inks),
         options={"ENUM_FLAG"},
     )

@@ -6,7 +6,13 @@ import bpy
 
 from ..engine import InvoluteError
 from . import job as jobs
+from .language import label, message
 from .view_state import redraw
+
+
+def stage_of(job: jobs.Job) -> str:
+    """Where a job is, in words."""
+    return label(job.stage, **job.counts)
 
 
 class Tracing:
@@ -30,7 +36,7 @@ class Tracing:
         if bpy.app.background:
             return self.execute(context)
         if jobs.current is not None:
-            self.report({"ERROR"}, "Another trace is running; wait for it or cancel it.")
+            self.report({"ERROR"}, message("Another trace is running; wait for it or cancel it."))
             return {"CANCELLED"}
         jobs.current = self._begun(context)
         if jobs.current is None:
@@ -75,7 +81,7 @@ class Tracing:
         try:
             return self.begin(context)
         except InvoluteError as problem:
-            self.report({"ERROR"}, str(problem))
+            self.report({"ERROR"}, message(problem))
             return None
 
     def _show_progress(self, context: bpy.types.Context, job: jobs.Job) -> None:
@@ -83,7 +89,8 @@ class Tracing:
         if self.escape_cancels:
             percent = round(100 * job.fraction)
             context.window_manager.progress_update(percent)
-            context.workspace.status_text_set(f"Involute: {job.stage}, {percent} %   (ESC cancels)")
+            said = label("{stage}, {percent} % (Esc cancels)", stage=stage_of(job), percent=percent)
+            context.workspace.status_text_set(f"Involute: {said}")
         redraw(context)
 
     def _stop(self, context: bpy.types.Context) -> None:

@@ -6,7 +6,7 @@ from importlib import import_module
 from types import ModuleType
 
 _WITH_CLASSES = ("preferences", "presets", "trace_panel", "junction_panel", "pie")
-_WITH_REGISTER = ("menus", "overlay", "keymap", "tool")
+_WITH_REGISTER = ("translations", "menus", "overlay", "keymap", "tool")
 
 
 def _modules(names: tuple[str, ...]) -> list[ModuleType]:

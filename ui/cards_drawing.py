@@ -11,6 +11,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import blf
+import bpy
 import gpu
 import numpy as np
 from gpu_extras.batch import batch_for_shader
@@ -25,8 +26,6 @@ from .overlay_geometry import labels, routes
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
-
-    import bpy
 
     from ..operators.view_state import Shown
 
@@ -62,7 +61,8 @@ class _Cards:
 def draw(context: bpy.types.Context, shown: Shown) -> None:
     """Letters always; cards while the user is choosing."""
     scale = context.preferences.system.ui_scale
-    state = shown.trace.stamp, shown.junction.index, scale
+    language = bpy.app.translations.locale
+    state = shown.trace.stamp, shown.junction.index, language, scale
     gpu.state.blend_set("ALPHA")
     _draw_letters(context, shown, state)
     if shown.view.choosing:

@@ -12,6 +12,7 @@ from ..operators.choose import INVOLUTE_OT_choose
 from ..operators.go_to_junction import INVOLUTE_OT_go_to_junction, INVOLUTE_OT_step_junction
 from ..operators.join import INVOLUTE_OT_join
 from ..operators.junction_words import angle, arrow, letters, percent, sentence
+from ..operators.language import label
 from ..operators.lock import INVOLUTE_OT_lock
 from ..operators.preview import INVOLUTE_OT_preview
 from ..operators.reroute import INVOLUTE_OT_reroute
@@ -69,7 +70,8 @@ class INVOLUTE_PT_junction(_Sidebar, bpy.types.Panel):
         layout, junction = self.layout, shown.junction
         names = letters(shown.trace.drawing, junction)
         row = layout.row()
-        row.label(text=f"{junction.degree} lines: {sentence(names, junction.pairs)}")
+        count = label("{count} lines", count=junction.degree)
+        row.label(text=f"{count}: {sentence(names, junction.pairs)}", translate=False)
         lock = "LOCKED" if junction.locked else "UNLOCKED"
         row.operator(INVOLUTE_OT_lock.bl_idname, text="", icon=lock).junction = junction.index
         _alternatives(layout, shown, names)
@@ -96,18 +98,20 @@ def _list(layout: bpy.types.UILayout, shown: Shown, listed: np.ndarray) -> None:
     for index in listed[page * _ROWS : (page + 1) * _ROWS].tolist():
         row = box.row(align=True)
         is_locked = bool(shown.table.locked[index])
+        lines = label("{count} lines", count=shown.table.degree[index])
         certain = percent(1.0 - float(shown.table.doubt[index]))
         button = row.operator(
             INVOLUTE_OT_go_to_junction.bl_idname,
-            text=f"{index}:  {shown.table.degree[index]} lines,  {certain}",
+            text=f"{index}:  {lines},  {certain}",
             icon="LOCKED" if is_locked else "NONE",
             depress=index == shown.view.junction,
             translate=False,
         )
         button.junction = index
     row = layout.row(align=True)
-    row.label(text=f"{len(listed)} of {len(shown.table)}", translate=False)
-    row.prop(shown.view, "page", text=f"Page of {pages}")
+    count = label("{some} of {all}", some=len(listed), all=len(shown.table))
+    row.label(text=count, translate=False)
+    row.prop(shown.view, "page", text=label("Page of {count}", count=pages), translate=False)
 
 
 def _alternatives(layout: bpy.types.UILayout, shown: Shown, names: dict[int, str]) -> None:

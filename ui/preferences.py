@@ -5,6 +5,7 @@ from __future__ import annotations
 import bpy
 from bpy.props import FloatProperty, FloatVectorProperty, PointerProperty
 
+from ..operators.language import label
 from ..operators.settings_layout import draw_settings
 from ..operators.trace_settings import INVOLUTE_PG_trace_settings
 from . import colors
@@ -76,7 +77,8 @@ class INVOLUTE_AP_preferences(bpy.types.AddonPreferences):
         for name, path in found_networks():
             row = box.row()
             row.label(text=name)
-            row.label(text=path or "not installed: the method without learning is used")
+            missing = label("not installed: the method without learning is used")
+            row.label(text=path or missing, translate=False)
 
 
 def preferences_of(context: bpy.types.Context) -> INVOLUTE_AP_preferences:

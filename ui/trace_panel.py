@@ -7,12 +7,13 @@ import bpy
 from ..engine import InvoluteError
 from ..operators import job as jobs
 from ..operators.import_scan import INVOLUTE_OT_import_scan
+from ..operators.language import label
 from ..operators.playing import plays_frames
 from ..operators.sequence import INVOLUTE_OT_import_sequence, INVOLUTE_OT_trace_sequence
 from ..operators.settings_layout import draw_settings
 from ..operators.trace import INVOLUTE_OT_trace, is_image_empty
 from ..operators.trace_settings import as_values, scene_settings
-from ..operators.tracing import INVOLUTE_OT_cancel
+from ..operators.tracing import INVOLUTE_OT_cancel, stage_of
 from ..operators.use_defaults import INVOLUTE_OT_use_defaults
 from ..operators.view_state import Shown, shown_in
 from .presets import draw_preset_menu
@@ -34,7 +35,7 @@ class INVOLUTE_PT_trace(bpy.types.Panel):
         layout = self.layout
         if jobs.current is not None:
             job = jobs.current
-            layout.progress(factor=job.fraction, text=job.stage)
+            layout.progress(factor=job.fraction, text=stage_of(job), translate=False)
             layout.operator(INVOLUTE_OT_cancel.bl_idname, icon="CANCEL")
             return
         settings = scene_settings(context.scene)
@@ -45,7 +46,7 @@ class INVOLUTE_PT_trace(bpy.types.Panel):
                 column,
                 INVOLUTE_OT_trace_sequence.bl_idname,
                 settings,
-                f"Trace What {context.active_object.name} Plays",
+                label("Trace What {name} Plays", name=context.active_object.name),
                 "RENDER_ANIMATION",
             )
         elif is_image_empty(context.active_object):
@@ -53,11 +54,15 @@ class INVOLUTE_PT_trace(bpy.types.Panel):
                 column,
                 INVOLUTE_OT_trace.bl_idname,
                 settings,
-                f"Trace {context.active_object.name}",
+                label("Trace {name}", name=context.active_object.name),
                 "GREASEPENCIL",
             )
         _button(
-            column, INVOLUTE_OT_import_scan.bl_idname, settings, "Trace Files...", "FILE_FOLDER"
+            column,
+            INVOLUTE_OT_import_scan.bl_idname,
+            settings,
+            "Trace Files...",
+            "FILE_FOLDER",
         )
         _button(
             column,
@@ -89,12 +94,19 @@ class INVOLUTE_PT_summary(bpy.types.Panel):
         drawing = shown.trace.drawing
         seconds = sum(drawing.seconds.values())
         column = self.layout.column(align=True)
-        counts = f"{len(drawing.strokes):,} strokes, {len(drawing.fills):,} solids"
-        column.label(text=f"{counts}, {seconds:.1f} s", translate=False)
-        column.label(
-            text=f"{len(shown.table):,} junctions, {len(drawing.doubtful):,} doubtful",
-            translate=False,
+        drawn = label(
+            "{strokes:,} strokes, {solids:,} solids, {seconds:.1f} s",
+            strokes=len(drawing.strokes),
+            solids=len(drawing.fills),
+            seconds=seconds,
         )
+        found = label(
+            "{junctions:,} junctions, {doubtful:,} doubtful",
+            junctions=len(shown.table),
+            doubtful=len(drawing.doubtful),
+        )
+        for text in (drawn, found):
+            column.label(text=text, translate=False)
 
 
 def _button(

@@ -1,0 +1,112 @@
+"""Every text that a user can see has a German one, and no German one is left over."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+SOURCES = sorted([*ROOT.glob("ui/*.py"), *ROOT.glob("operators/*.py")])
+OUTSIDE = ("blend_file.py", "german.py")  # the command line speaks English; the table itself
+SAME = {"", "3", "4", "5+", "involute", "3D View", "Grease Pencil"}  # of these there is no German
+_BLENDERS = {"Name", "File Path", "Filepath used for importing the file"}  # it translates them
+_SEEN = {"name", "description", "text", "heading"}
+_TOLD = ("label", "message", "InvoluteError", "_color")
+
+
+@pytest.fixture
+def table(part) -> dict[str, str]:
+    return part("ui.german").TEXTS
+
+
+def trees() -> Iterator[ast.Module]:
+    for path in SOURCES:
+        if path.name not in OUTSIDE:
+            yield ast.parse(path.read_text("utf-8"))
+
+
+def seen_in(tree: ast.Module) -> Iterator[str]:
+    """The texts of one file that a user can see."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Call):
+            name = ast.unparse(node.func).rpartition(".")[2]
+            for keyword in node.keywords:
+                if keyword.arg in _SEEN:
+                    yield from texts(keyword.value)
+                if keyword.arg == "items" and isinstance(keyword.value, ast.List):
+                    for item in keyword.value.elts:
+                        yield from (t for element in item.elts[1:3] for t in texts(element))
+            if name in _TOLD:
+                yield from (t for argument in node.args for t in texts(argument))
+            if name == "report":
+                yield from texts(node.args[1])
+        if isinstance(node, ast.ClassDef):
+            if node.name.startswith("INVOLUTE_OT"):
+                yield ast.get_docstring(node)
+            for line in node.body:
+                if isinstance(line, ast.Assign) and line.targets[0].id in (
+                    "bl_label",
+                    "bl_description",
+                ):
+                    yield from texts(line.value)
+
+
+def texts(node: ast.expr) -> Iterator[str]:
+    if isinstance(node, ast.Constant) and isinstance(node.value, str):
+        yield node.value
+    elif isinstance(node, ast.IfExp):
+        yield from [*texts(node.body), *texts(node.orelse)]
+    elif isinstance(node, ast.BoolOp):
+        yield from (t for value in node.values for t in texts(value))
+
+
+def test_everything_that_is_seen_has_a_german_text(table):
+    seen = {text for tree in trees() for text in seen_in(tree)} - SAME
+    assert len(seen) > 150
+    assert sorted(seen - table.keys()) == []
+
+
+def test_no_text_is_left_over(part, table):
+    """Every English text of the table stands in the code; the German one has the same places."""
+    written = set()
+    for tree in trees():
+        written |= {text for text in seen_in(tree) if text}
+        written |= {
+            node.value
+            for node in ast.walk(tree)
+            if isinstance(node, ast.Constant) and isinstance(node.value, str)
+        }
+    written |= {ink.title() for ink in part("engine.settings").INKS}
+    assert sorted(table.keys() - written) == []
+    for english, german in table.items():
+        assert sorted(re.findall("{.*?}", english)) == sorted(re.findall("{.*?}", german))
+        assert german.strip() == german != ""
+        assert english.endswith(".") == german.endswith(".")
+
+
+def test_classes_show_only_known_texts(bpy, part, table):
+    """What Blender itself knows of our operators, settings and panels."""
+    ours = part("operators")._classes()
+    for name in part("ui")._WITH_CLASSES:
+        ours += part(f"ui.{name}").CLASSES
+    missing = set()
+    for cls in ours:
+        own = {n for base in cls.__mro__ for n in getattr(base, "__annotations__", {})}
+        for prop in cls.bl_rna.properties:
+            if prop.identifier in own and not prop.is_hidden:
+                missing |= {prop.name, prop.description}
+                if prop.type == "ENUM":
+                    missing |= {t for i in prop.enum_items for t in (i.name, i.description)}
+    missing -= {*table, *SAME, "Bézier", *_BLENDERS}
+    assert sorted(missing) == []
+
+
+def test_texts_are_filled(bpy, part):
+    """Blender's Python module speaks English only: German was looked at in a window."""
+    label, message = part("operators.language").label, part("operators.language").message
+    assert label("{done} of {count} frames", done=1, count=3) == "1 of 3 frames"
+    assert message(part("engine").InvoluteError("a {brace}")) == "a {brace}"

@@ -1,0 +1,485 @@
+"""German texts of the interface by their English ones; places in {braces} stay as they are."""
+
+from __future__ import annotations
+
+TEXTS = {
+    # tracing
+    "Trace Drawing": "Zeichnung nachziehen",
+    "Turn a scanned drawing into Grease Pencil strokes that run straight through junctions": (
+        "Aus einer gescannten Zeichnung Grease-Pencil-Striche machen, die durch Kreuzungen "
+        "hindurchlaufen"
+    ),
+    "File": "Datei",
+    "Picture to trace; empty for the image given below or the active image Empty": (
+        "Bild, das nachgezogen wird; leer für das Bild darunter oder das aktive Bild-Empty"
+    ),
+    "Image": "Bild",
+    "Name of the image data-block to trace": "Name des Bild-Datenblocks, der nachgezogen wird",
+    "Target": "Ziel",
+    "Where the strokes go": "Wohin die Striche kommen",
+    "New Object": "Neues Objekt",
+    "A Grease Pencil object per drawing": "Ein Grease-Pencil-Objekt je Zeichnung",
+    "Active Object": "Aktives Objekt",
+    "A keyframe of the active Grease Pencil object": (
+        "Ein Keyframe des aktiven Grease-Pencil-Objekts"
+    ),
+    "Trace scanned drawings from files as Grease Pencil strokes": (
+        "Gescannte Zeichnungen aus Dateien als Grease-Pencil-Striche nachziehen"
+    ),
+    "Trace Scanned Drawings": "Gescannte Zeichnungen nachziehen",
+    "Trace {name}": "{name} nachziehen",
+    "Trace What {name} Plays": "Nachziehen, was {name} abspielt",
+    "Trace Files...": "Dateien nachziehen...",
+    "Trace Sequence...": "Bildfolge nachziehen...",
+    "Trace as Grease Pencil": "Als Grease Pencil nachziehen",
+    "Scanned Drawing as Grease Pencil (Involute)": (
+        "Gescannte Zeichnung als Grease Pencil (Involute)"
+    ),
+    "Drawing Sequence as Grease Pencil (Involute)": "Bildfolge als Grease Pencil (Involute)",
+    "Scanned Drawing...": "Gescannte Zeichnung...",
+    "Drawing Sequence...": "Bildfolge...",
+    "Trace as Keyframes (Involute)": "Als Keyframes nachziehen (Involute)",
+    "Trace as Strokes (Involute)": "Als Striche nachziehen (Involute)",
+    "Cancel": "Abbrechen",
+    "Stop the trace that is running; nothing in the scene changes": (
+        "Das laufende Nachziehen anhalten; in der Szene ändert sich nichts"
+    ),
+    "{stage}, {percent} % (Esc cancels)": "{stage}, {percent} % (Esc bricht ab)",
+    "Reading the picture": "Bild wird gelesen",
+    "Looking for solid blacks": "Schwarze Flächen werden gesucht",
+    "Finding the lines": "Linien werden gesucht",
+    "Finding the junctions": "Kreuzungen werden gesucht",
+    "Routing the junctions": "Kreuzungen werden verbunden",
+    "Drawing the strokes": "Striche werden gezeichnet",
+    "{done} of {count} frames": "{done} von {count} Bildern",
+    "Result": "Ergebnis",
+    "{strokes:,} strokes, {solids:,} solids, {seconds:.1f} s": (
+        "{strokes:,} Striche, {solids:,} Flächen, {seconds:.1f} s"
+    ),
+    "{junctions:,} junctions, {doubtful:,} doubtful": (
+        "{junctions:,} Kreuzungen, {doubtful:,} zweifelhaft"
+    ),
+    "{strokes} strokes, {junctions} junctions ({doubtful} doubtful), {seconds:.1f} s": (
+        "{strokes} Striche, {junctions} Kreuzungen ({doubtful} zweifelhaft), {seconds:.1f} s"
+    ),
+    "Another trace is running; wait for it or cancel it.": (
+        "Es wird schon nachgezogen; warte darauf oder brich es ab."
+    ),
+    "Tracing was cancelled.": "Das Nachziehen wurde abgebrochen.",
+    "There is nothing to trace.": "Es gibt nichts nachzuziehen.",
+    "There are no lines in the picture.": "In dem Bild sind keine Linien.",
+    "There is no image {name!r} in this file.": "In dieser Datei gibt es kein Bild {name!r}.",
+    "The image {name!r} has no pixels; reload it or choose another.": (
+        "Das Bild {name!r} hat keine Pixel; lade es neu oder wähle ein anderes."
+    ),
+    "Choose a picture file, or select an Empty that shows an image.": (
+        "Wähle eine Bilddatei oder ein Empty, das ein Bild zeigt."
+    ),
+    "Make a Grease Pencil object of this file the active one.": (
+        "Mache ein Grease-Pencil-Objekt dieser Datei zum aktiven."
+    ),
+    "There is not enough memory for a picture of this size.": (
+        "Für ein Bild dieser Größe reicht der Speicher nicht."
+    ),
+    # settings
+    "What the Drawing Is": "Was die Zeichnung ist",
+    "How Clean": "Wie sauber",
+    "How Many Points": "Wie viele Punkte",
+    "Lines": "Linien",
+    "Which side of the picture is ink": "Welche Seite des Bildes Tusche ist",
+    "Automatic": "Automatisch",
+    "Find out from the picture": "Am Bild herausfinden",
+    "Dark on Light": "Dunkel auf Hell",
+    "Ink or pencil on paper": "Tusche oder Bleistift auf Papier",
+    "Light on Dark": "Hell auf Dunkel",
+    "Chalk, blueprints, inverted scans": "Kreide, Blaupausen, umgekehrte Scans",
+    "Pen Width": "Strichstärke",
+    "Usual width of a line in pixels of the picture; 0 measures it": (
+        "Übliche Breite einer Linie in Pixeln des Bildes; 0 misst sie"
+    ),
+    "Line Finder": "Liniensuche",
+    "What finds the centres of the lines": "Was die Mitten der Linien findet",
+    "The trained network when it is there, else the ridge filter": (
+        "Das gelernte Netz, wenn es da ist, sonst der Gratfilter"
+    ),
+    "Network": "Netz",
+    "Trained on pencil, ink, chalk and bad scans": (
+        "An Bleistift, Tusche, Kreide und schlechten Scans gelernt"
+    ),
+    "Ridge Filter": "Gratfilter",
+    "No learning; for very clean lines": "Ohne Lernen; für sehr saubere Linien",
+    "Picture Is Centerlines": "Das Bild zeigt Mittellinien",
+    "Thin white lines on black, made elsewhere": (
+        "Dünne weiße Linien auf Schwarz, anderswo gemacht"
+    ),
+    "Solid Blacks": "Schwarze Flächen",
+    "Turn areas of solid ink into fills instead of tracing them as lines": (
+        "Flächen voller Tusche zu Füllungen machen, statt sie als Linien nachzuziehen"
+    ),
+    "Ink Colors": "Tuschefarben",
+    "Give every ink its own layer and material; off draws all lines in black": (
+        "Jeder Tusche eine eigene Ebene und ein eigenes Material geben; sonst werden alle Linien "
+        "schwarz"
+    ),
+    "Ignore Inks": "Tuschen weglassen",
+    "Inks that are not traced, such as a blue construction pencil": (
+        "Tuschen, die nicht nachgezogen werden, etwa ein blauer Vorzeichenstift"
+    ),
+    "None": "Keine",
+    "Don't trace lines of this color": "Linien dieser Farbe nicht nachziehen",
+    "Red": "Rot",
+    "Orange": "Orange",
+    "Yellow": "Gelb",
+    "Green": "Grün",
+    "Cyan": "Cyan",
+    "Blue": "Blau",
+    "Purple": "Violett",
+    "Pink": "Rosa",
+    "Gray": "Grau",
+    "Leave Out Marks": "Marken weglassen",
+    "Don't trace scan borders, punched holes and registration marks": (
+        "Scanränder, Lochungen und Passmarken nicht nachziehen"
+    ),
+    "Fill Regions": "Gebiete füllen",
+    "Fill the closed regions between the lines with white, on a layer below": (
+        "Die geschlossenen Gebiete zwischen den Linien weiß füllen, auf einer Ebene darunter"
+    ),
+    "Specks": "Flecken",
+    "Drop lone strokes shorter than this many pen widths": (
+        "Einzelne Striche weglassen, die kürzer sind als so viele Strichstärken"
+    ),
+    "Smoothing": "Glättung",
+    "0 keeps every wobble of the hand, 1 is very smooth": (
+        "0 behält jedes Zittern der Hand, 1 ist sehr glatt"
+    ),
+    "Junctions": "Kreuzungen",
+    "What decides which lines continue through a junction": (
+        "Was entscheidet, welche Linien durch eine Kreuzung weiterlaufen"
+    ),
+    "The trained network when it is there, else geometry": (
+        "Das gelernte Netz, wenn es da ist, sonst die Geometrie"
+    ),
+    "Looks at the whole neighborhood of the junction": (
+        "Betrachtet die ganze Umgebung der Kreuzung"
+    ),
+    "Geometry": "Geometrie",
+    "Looks at direction, curvature and width only": (
+        "Betrachtet nur Richtung, Krümmung und Breite"
+    ),
+    "Tolerance": "Toleranz",
+    "How far a stroke may stray from the traced line, in pixels of the picture; more gives fewer "
+    "points": (
+        "Wie weit ein Strich von der nachgezogenen Linie abweichen darf, in Pixeln des Bildes; "
+        "mehr gibt weniger Punkte"
+    ),
+    "Curves": "Kurven",
+    "What the strokes are made of": "Woraus die Striche bestehen",
+    "Points": "Punkte",
+    "Plain points, for sculpting and drawing over": (
+        "Einfache Punkte, zum Modellieren und Überzeichnen"
+    ),
+    "Bézier": "Bézier",
+    "Few points with handles": "Wenige Punkte mit Griffen",
+    "Device": "Gerät",
+    "Where the networks run": "Wo die Netze laufen",
+    "A graphics card when one can be used, else the processor": (
+        "Eine Grafikkarte, wenn eine zu gebrauchen ist, sonst der Prozessor"
+    ),
+    "Processor": "Prozessor",
+    "Always works": "Geht immer",
+    "Graphics Card": "Grafikkarte",
+    "Needs PyTorch in Blender's Python": "Braucht PyTorch in Blenders Python",
+    "Reset to Defaults": "Auf Voreinstellungen zurücksetzen",
+    "Set all trace settings back to the defaults that are in the preferences": (
+        "Alle Einstellungen auf die Vorgaben in den Voreinstellungen zurücksetzen"
+    ),
+    "Trace Preset": "Vorlage zum Nachziehen",
+    "Trace Presets": "Vorlagen zum Nachziehen",
+    "Add or remove a preset of the trace settings": (
+        "Eine Vorlage der Einstellungen hinzufügen oder entfernen"
+    ),
+    # where a drawing stands
+    "Place": "Ort",
+    "Where a new drawing stands; on an image Empty it always lies on the image": (
+        "Wo eine neue Zeichnung steht; an einem Bild-Empty liegt sie immer auf dem Bild"
+    ),
+    "Front View": "Vorderansicht",
+    "Upright at the world's origin": "Aufrecht am Ursprung der Welt",
+    "Fit to Camera": "In die Kamera einpassen",
+    "Fill the view of the scene's camera, facing it": (
+        "Den Blick der Szenenkamera füllen, ihr zugewandt"
+    ),
+    "Drawing Plane": "Zeichenebene",
+    "As the scene's Stroke Placement and Drawing Plane say": (
+        "Wie Strichplatzierung und Zeichenebene der Szene sagen"
+    ),
+    "Pixels per Metre": "Pixel je Meter",
+    "Size of a new drawing; 0 makes it 2 metres tall. Fit to Camera ignores it": (
+        "Größe einer neuen Zeichnung; 0 macht sie 2 Meter hoch. In die Kamera einpassen beachtet "
+        "sie nicht"
+    ),
+    "There is no camera in the scene to fit to; add one, or place it else.": (
+        "In der Szene ist keine Kamera zum Einpassen; füge eine hinzu oder wähle einen anderen Ort."
+    ),
+    # sequences
+    "Trace Sequence": "Bildfolge nachziehen",
+    "Turn numbered drawings into keyframes of one Grease Pencil object, in the background": (
+        "Aus nummerierten Zeichnungen Keyframes eines Grease-Pencil-Objekts machen, im Hintergrund"
+    ),
+    "Trace Drawing Sequence": "Bildfolge nachziehen",
+    "Choose a folder of numbered drawings, or some of them, and trace them as keyframes": (
+        "Einen Ordner nummerierter Zeichnungen oder einige davon wählen und als Keyframes "
+        "nachziehen"
+    ),
+    "Start At": "Beginnen bei",
+    "Put the first drawing at a frame of your choice instead of its own number": (
+        "Die erste Zeichnung auf ein Bild deiner Wahl setzen statt auf ihre eigene Nummer"
+    ),
+    "Start Frame": "Erstes Bild",
+    "Frame of the first drawing": "Bild der ersten Zeichnung",
+    "Step": "Schritt",
+    "Frames from one number to the next; 2 animates on twos": (
+        "Bilder von einer Nummer zur nächsten; 2 animiert auf Zweiern"
+    ),
+    "Align by Peg Holes": "An den Lochungen ausrichten",
+    "Bring all pages to where the peg holes or registration marks of the first lie": (
+        "Alle Seiten dorthin bringen, wo die Lochungen oder Passmarken der ersten liegen"
+    ),
+    "Steady Strokes": "Stetige Striche",
+    "Give neighboring frames the same order and direction of strokes, so that Interpolate pairs "
+    "them rightly": (
+        "Benachbarten Bildern dieselbe Reihenfolge und Richtung der Striche geben, damit "
+        "Interpolieren die richtigen paart"
+    ),
+    "Processes": "Prozesse",
+    "Drawings traced at the same time; 0 uses every processor core": (
+        "Zeichnungen, die gleichzeitig nachgezogen werden; 0 nutzt jeden Prozessorkern"
+    ),
+    "Folder": "Ordner",
+    "Folder of numbered drawings; empty for what the active image Empty plays": (
+        "Ordner nummerierter Zeichnungen; leer für das, was das aktive Bild-Empty abspielt"
+    ),
+    "Only What Changed": "Nur Geändertes",
+    "Fill the active object; keyframes whose drawing has not changed stay as they are, with all "
+    "that was done to them": (
+        "Das aktive Objekt füllen; Keyframes, deren Zeichnung sich nicht geändert hat, bleiben mit "
+        "allem, was an ihnen getan wurde"
+    ),
+    "Choose a folder of drawings, or select an Empty that plays images or a movie.": (
+        "Wähle einen Ordner mit Zeichnungen oder ein Empty, das Bilder oder einen Film abspielt."
+    ),
+    "Make the Grease Pencil object of the sequence the active one.": (
+        "Mache das Grease-Pencil-Objekt der Bildfolge zum aktiven."
+    ),
+    "None of the frames could be traced.": "Keines der Bilder konnte nachgezogen werden.",
+    "Frame {frame}": "Bild {frame}",
+    "{count} keyframes": "{count} Keyframes",
+    "{count} kept": "{count} behalten",
+    "{count} frames failed": "{count} Bilder misslungen",
+    "then cancelled": "dann abgebrochen",
+    "There is no folder {path}; check the path.": ("Es gibt keinen Ordner {path}; prüfe den Pfad."),
+    "There is no picture in {path}; choose another folder.": (
+        "In {path} ist kein Bild; wähle einen anderen Ordner."
+    ),
+    "{name} plays no frame; set its Frames to more than 0.": (
+        "{name} spielt kein Bild ab; setze seine Bilder auf mehr als 0."
+    ),
+    "There is no folder {path}; find the images again.": (
+        "Es gibt keinen Ordner {path}; suche die Bilder neu."
+    ),
+    "There is no file {path}; find the images again.": (
+        "Es gibt keine Datei {path}; suche die Bilder neu."
+    ),
+    # the list of junctions
+    "Sort": "Sortieren",
+    "Order of the list": "Reihenfolge der Liste",
+    "Doubt": "Zweifel",
+    "The most doubtful first": "Die zweifelhaftesten zuerst",
+    "From the top of the page to the bottom": "Vom oberen Rand der Seite zum unteren",
+    "Doubtful": "Zweifelhaft",
+    "List doubtful junctions only": "Nur zweifelhafte Kreuzungen zeigen",
+    "Unlocked": "Offen",
+    "Leave out junctions that you have fixed": "Kreuzungen weglassen, die du festgelegt hast",
+    "How many lines meet": "Wie viele Linien sich treffen",
+    "Any": "Alle",
+    "Any number of lines": "Beliebig viele Linien",
+    "Three lines meet": "Drei Linien treffen sich",
+    "Four lines meet": "Vier Linien treffen sich",
+    "Five or more lines meet": "Fünf oder mehr Linien treffen sich",
+    "Page": "Seite",
+    "Page of the list": "Seite der Liste",
+    "Page of {count}": "Seite von {count}",
+    "{some} of {all}": "{some} von {all}",
+    "{count} lines": "{count} Linien",
+    "No junction passes the filters": "Keine Kreuzung passt zu den Filtern",
+    "No junction passes the filters.": "Keine Kreuzung passt zu den Filtern.",
+    "Previous": "Vorige",
+    "Next": "Nächste",
+    "Direction": "Richtung",
+    "Which way along the list": "In welcher Richtung durch die Liste",
+    "The next junction of the list": "Die nächste Kreuzung der Liste",
+    "The junction before in the list": "Die Kreuzung davor in der Liste",
+    "Next or Previous Junction": "Nächste oder vorige Kreuzung",
+    "Go to the next or previous junction of the list": (
+        "Zur nächsten oder vorigen Kreuzung der Liste gehen"
+    ),
+    "Go to Junction": "Zur Kreuzung gehen",
+    "Look at this junction": "Diese Kreuzung ansehen",
+    "Move View": "Ansicht bewegen",
+    "Bring the junction to the middle of the view": (
+        "Die Kreuzung in die Mitte der Ansicht bringen"
+    ),
+    "Accept All Above 95 %": "Alle über 95 % annehmen",
+    "Accept Certain Junctions": "Sichere Kreuzungen annehmen",
+    "Lock every junction that is at least this certain": (
+        "Jede Kreuzung sperren, die mindestens so sicher ist"
+    ),
+    "Certainty": "Sicherheit",
+    "Least probability of the routing in force": (
+        "Kleinste Wahrscheinlichkeit der geltenden Verbindung"
+    ),
+    "{count} junctions accepted": "{count} Kreuzungen angenommen",
+    "Ask Again": "Neu fragen",
+    "Route all junctions that are not locked again, given what you have fixed": (
+        "Alle Kreuzungen, die nicht gesperrt sind, neu verbinden, ausgehend von dem, was du "
+        "festgelegt hast"
+    ),
+    "{count} junctions changed": "{count} Kreuzungen geändert",
+    # one junction
+    "Current Junction": "Aktuelle Kreuzung",
+    "Junction": "Kreuzung",
+    "Number of the junction": "Nummer der Kreuzung",
+    "Number of the junction; -1 is the current one": "Nummer der Kreuzung; -1 ist die aktuelle",
+    "Alternative": "Möglichkeit",
+    "Which alternative": "Welche Möglichkeit",
+    "Which alternative, the most probable is 0": (
+        "Welche Möglichkeit; die wahrscheinlichste ist 0"
+    ),
+    "{lines} ends": "{lines} endet",
+    "{lines} end": "{lines} enden",
+    "Lock Junction": "Kreuzung sperren",
+    "Lock the junction: it counts as certain, and Ask Again learns from it; or unlock it": (
+        "Die Kreuzung sperren: sie gilt als sicher, und Neu fragen lernt daraus; oder sie freigeben"
+    ),
+    "Lock or Unlock": "Sperren oder freigeben",
+    "Preview Alternative": "Möglichkeit zeigen",
+    "Show this alternative in the viewport without applying it; again to stop": (
+        "Diese Möglichkeit in der Ansicht zeigen, ohne sie anzuwenden; noch einmal, um aufzuhören"
+    ),
+    "Reroute Junction": "Kreuzung neu verbinden",
+    "Let the lines continue through the junction in this way; only they change": (
+        "Die Linien so durch die Kreuzung laufen lassen; nur sie ändern sich"
+    ),
+    "Choose in Viewport": "In der Ansicht wählen",
+    "Choose Routing": "Verbindung wählen",
+    "Show the alternatives of a junction as cards: point to preview, click to apply": (
+        "Die Möglichkeiten einer Kreuzung als Karten zeigen: zeigen, um sie zu sehen, klicken, um "
+        "sie anzuwenden"
+    ),
+    "Point at a card to preview, click or Enter to apply, wheel or arrows for the next, L locks, "
+    "Esc leaves": (
+        "Auf eine Karte zeigen, um sie zu sehen, Klick oder Eingabe wendet sie an, Rad oder Pfeile "
+        "für die nächste, L sperrt, Esc verlässt"
+    ),
+    "Pick": "Greifen",
+    "Take the junction under the mouse instead of the current one": (
+        "Die Kreuzung unter der Maus statt der aktuellen nehmen"
+    ),
+    "By Hand": "Von Hand",
+    "Join Lines": "Linien verbinden",
+    "Let one of these lines continue in the other; what they continued in before ends here": (
+        "Eine dieser Linien in der anderen weiterlaufen lassen; worin sie vorher weiterliefen, "
+        "endet hier"
+    ),
+    "First": "Erste",
+    "Second": "Zweite",
+    "Number of a half-branch": "Nummer eines Halbzweigs",
+    "Number of the other half-branch": "Nummer des anderen Halbzweigs",
+    "Only two lines that meet at one junction can be joined.": (
+        "Nur zwei Linien, die sich an einer Kreuzung treffen, lassen sich verbinden."
+    ),
+    "Ends": "Endet",
+    "Separate Line": "Linie trennen",
+    "Separate Lines": "Linien trennen",
+    "Separate All Lines": "Alle Linien trennen",
+    "End a line at its junction, or all lines of the current junction": (
+        "Eine Linie an ihrer Kreuzung enden lassen, oder alle Linien der aktuellen Kreuzung"
+    ),
+    "Line": "Linie",
+    "Number of the half-branch; -1 separates all": "Nummer des Halbzweigs; -1 trennt alle",
+    "End the line under the mouse at its junction": (
+        "Die Linie unter der Maus an ihrer Kreuzung enden lassen"
+    ),
+    "Drag to Join": "Ziehen zum Verbinden",
+    "Drag from one line to another that meets it at a junction to join them": (
+        "Von einer Linie zu einer anderen ziehen, die sie an einer Kreuzung trifft, um sie zu "
+        "verbinden"
+    ),
+    "Drag from one line to another that meets it at a junction.": (
+        "Ziehe von einer Linie zu einer anderen, die sie an einer Kreuzung trifft."
+    ),
+    "Click a junction to choose among its alternatives\n"
+    "Drag from one line to another to join them\n"
+    "Alt-click a line to end it at its junction": (
+        "Eine Kreuzung anklicken, um unter ihren Möglichkeiten zu wählen\n"
+        "Von einer Linie zu einer anderen ziehen, um sie zu verbinden\n"
+        "Eine Linie mit Alt anklicken, um sie an ihrer Kreuzung enden zu lassen"
+    ),
+    "Choose a junction first.": "Wähle zuerst eine Kreuzung.",
+    "This junction has {count} alternatives.": "Diese Kreuzung hat {count} Möglichkeiten.",
+    "Select a drawing that Involute has traced": (
+        "Wähle eine Zeichnung, die Involute nachgezogen hat"
+    ),
+    "This drawing is linked from another file; make it local to change it.": (
+        "Diese Zeichnung ist aus einer anderen Datei verknüpft; mache sie lokal, um sie zu ändern."
+    ),
+    "This drawing was not traced by Involute.": (
+        "Diese Zeichnung wurde nicht von Involute nachgezogen."
+    ),
+    "A newer Involute traced this drawing; update the extension.": (
+        "Ein neueres Involute hat diese Zeichnung nachgezogen; aktualisiere die Erweiterung."
+    ),
+    "A stroke at this junction was changed so much that its ends can't be told; nothing was "
+    "changed.": (
+        "Ein Strich an dieser Kreuzung wurde so verändert, dass seine Enden nicht zu erkennen "
+        "sind; nichts wurde geändert."
+    ),
+    # what is looked at
+    "Drawing": "Zeichnung",
+    "The traced drawing that is looked at": "Die Zeichnung, die betrachtet wird",
+    "The current junction": "Die aktuelle Kreuzung",
+    "Preview": "Vorschau",
+    "The alternative that is shown but not applied": (
+        "Die Möglichkeit, die gezeigt, aber nicht angewandt wird"
+    ),
+    "Choosing": "Wählen",
+    "The cards of the alternatives are shown": "Die Karten der Möglichkeiten werden gezeigt",
+    "Drag": "Ziehen",
+    "From where to where the mouse joins lines": "Von wo bis wo die Maus Linien verbindet",
+    "Junction Overlay": "Kreuzungen einblenden",
+    "Show junctions in the viewport, colored by doubt": (
+        "Kreuzungen in der Ansicht zeigen, nach Zweifel gefärbt"
+    ),
+    # preferences
+    "Defaults": "Vorgaben",
+    "Trace settings that Reset to Defaults brings back": (
+        "Einstellungen, die Auf Voreinstellungen zurücksetzen zurückbringt"
+    ),
+    "Certain": "Sicher",
+    "Color of junctions that are certain": "Farbe sicherer Kreuzungen",
+    "Color of the most doubtful junctions": "Farbe der zweifelhaftesten Kreuzungen",
+    "Locked": "Gesperrt",
+    "Color of junctions that you have fixed": "Farbe von Kreuzungen, die du festgelegt hast",
+    "Ring Size": "Ringgröße",
+    "Radius of a certain junction's ring, in pen widths": (
+        "Radius des Rings einer sicheren Kreuzung, in Strichstärken"
+    ),
+    "Default Trace Settings": "Vorgaben zum Nachziehen",
+    "Keys in the 3D Viewport": "Tasten in der 3D-Ansicht",
+    "Networks": "Netze",
+    "Line finder": "Liniensuche",
+    "Junction router": "Verbinden der Kreuzungen",
+    "not installed: the method without learning is used": (
+        "nicht installiert: das Verfahren ohne Lernen wird benutzt"
+    ),
+}
