@@ -38,7 +38,7 @@ _HELP = {
     "inks": "make all strokes black instead of the colour of their ink",
     "ignore_inks": "inks that are not traced, such as blue or blue,gray",
     "marks": "trace scan borders, punched holes and registration marks too",
-    "regions": "fill the closed regions between the lines (only in .blend)",
+    "regions": "fill the closed regions between the lines, in the colour that the page has there",
     "min_length": "drop loose strokes shorter than this many pen widths",
     "smoothing": "0 keeps every wobble, 1 is very smooth",
     "router": "what decides how strokes run through junctions",

@@ -38,6 +38,7 @@ class Drawing:
     seconds: how long each stage took.
     scale: input pixels per working pixel, the unit in which routing judges lengths.
     aligned: False when the page was to be aligned and had nothing to align by; not kept in files.
+    region_colors: (R, 3) uint8 sRGB of `regions`; None = all are white.
     """
 
     graph: PlanarGraph
@@ -49,6 +50,7 @@ class Drawing:
     seconds: Mapping[str, float] = field(default_factory=dict)
     scale: float = 1.0
     aligned: bool = True
+    region_colors: Array | None = None
 
     @classmethod
     def from_routing(
@@ -75,6 +77,11 @@ class Drawing:
             scale=float(scan.scale),
             aligned=scan.aligned,
         )
+        if settings.regions and scan.color is not None:
+            from .region_colors import region_colors
+
+            colors = region_colors(drawing.regions, graph, scan)
+            drawing = replace(drawing, region_colors=colors)
         vars(drawing)["_page"] = page
         return drawing
 

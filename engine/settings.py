@@ -45,7 +45,8 @@ class Settings:
         ignore_inks: inks that are not traced, such as a blue construction pencil; see `INKS`.
             "gray" is pencil under ink.
         marks: leave out scan borders, punched holes and registration marks.
-        regions: fill the closed regions between the lines, on a layer below (in Blender).
+        regions: fill the closed regions between the lines, below them, with white or with what
+            was painted there.
         align: where the punched holes (or marks) shall lie, in px of the input; the page is turned
             and moved to that; see `registration.anchors_of`. Empty = the page stays as it lies.
 

@@ -95,7 +95,8 @@ def write(
     if drawing.settings.regions and drawing.regions:
         written.add(REGION_LAYER)
         fills = _keyframe(data, REGION_LAYER, frame), data, drawing.regions
-        _write_fills(*fills, REGION_LAYER, (255, 255, 255), placement, key)
+        white = (255, 255, 255)
+        _write_fills(*fills, REGION_LAYER, white, placement, key, drawing.region_colors)
     inks: dict[tuple[int, int, int], list[Stroke]] = {}
     for stroke in drawing.strokes:
         inks.setdefault(tuple(stroke.color), []).append(stroke)
@@ -264,10 +265,16 @@ def _write_fills(
     color: tuple[int, int, int],
     placement: Placement,
     key: int,
+    own_colors: Array | None = None,
 ) -> None:
-    """Write areas, each the rings of its outline and holes, as filled strokes without a line."""
+    """Write areas, each the rings of its outline and holes, as filled strokes without a line.
+
+    Args:
+        own_colors: (n, 3) sRGB 0..255 of each area instead of the material's.
+    """
     outlines = [bridge_holes(rings) for rings in fills]
-    outlines = [ring for ring in outlines if len(ring) >= 3]
+    shown = [len(ring) >= 3 for ring in outlines]
+    outlines = [ring for ring, is_area in zip(outlines, shown, strict=True) if is_area]
     sizes = np.array([len(ring) for ring in outlines], np.int32)
     offsets = np.concatenate([[0], np.cumsum(sizes)]).astype(np.int32)
     material = _material_slot(data, name, color, fill=True)
@@ -279,6 +286,10 @@ def _write_fills(
         TRACE: column("INT", np.full(count, key)),
         HALF: column("INT", np.full(count, -1)),
     }
+    if own_colors is not None:
+        # Bare paper stays the material's, so that the artist can recolour it at one place.
+        colors = [(*_linear(own), float(min(own) < 255)) for own in own_colors[shown]]
+        curves["fill_color"] = column("FLOAT_COLOR", np.array(colors).reshape(-1, 4))
     if bpy.app.version >= _FILLS_BY_STROKE:
         curves["fill_id"] = column("INT", np.arange(1, count + 1))
         curves["hide_stroke"] = column("BOOLEAN", np.ones(count))

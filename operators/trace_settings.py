@@ -73,7 +73,7 @@ class TraceSettings:
     )
     regions: BoolProperty(
         name="Fill Regions",
-        description="Fill the closed regions between the lines with white, on a layer below",
+        description="Fill the closed regions between the lines, on a layer below",
         default=_DEFAULTS.regions,
     )
     min_length: FloatProperty(

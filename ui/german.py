@@ -141,8 +141,8 @@ TEXTS = {
         "Scanränder, Lochungen und Passmarken nicht nachziehen"
     ),
     "Fill Regions": "Gebiete füllen",
-    "Fill the closed regions between the lines with white, on a layer below": (
-        "Die geschlossenen Gebiete zwischen den Linien weiß füllen, auf einer Ebene darunter"
+    "Fill the closed regions between the lines, on a layer below": (
+        "Die geschlossenen Gebiete zwischen den Linien füllen, auf einer Ebene darunter"
     ),
     "Specks": "Flecken",
     "Drop lone strokes shorter than this many pen widths": (

@@ -72,6 +72,7 @@ def dumps(drawing: Drawing) -> str:
             "offsets": _packed(_offsets([len(ring) for ring in rings])),
             "ring_offsets": _packed(_offsets([len(fill) for fill in drawing.fills])),
         },
+        "region_colors": _packed(drawing.region_colors),
     }
     return json.dumps(document, separators=(",", ":"))
 
@@ -119,6 +120,7 @@ def _drawing(document: dict[str, Any]) -> Drawing:
         settings=Settings(**{k: v for k, v in document["settings"].items() if k in known}),
         seconds=document["seconds"],
         scale=float(document.get("scale", 1.0)),
+        region_colors=_unpacked(document.get("region_colors")),
     )
     _check(drawing)
     return drawing

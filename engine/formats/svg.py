@@ -1,4 +1,4 @@
-"""Drawings as SVG: one path per stroke in input pixels, solid areas as filled paths below.
+"""Drawings as SVG: one path per stroke in input pixels, areas and regions as filled paths below.
 
 Reading back an SVG of ours gives the same strokes to 1/1000 px; the widths and opacities along a
 stroke, which plain SVG can't say, travel in data attributes. Only JSON keeps the junctions.
@@ -7,6 +7,7 @@ stroke, which plain SVG can't say, travel in data attributes. Only JSON keeps th
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -34,14 +35,13 @@ def dumps(drawing: Drawing) -> str:
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" '
         f'width="{width}" height="{height}">'
     ]
+    if drawing.settings.regions and drawing.regions:
+        colors = drawing.region_colors
+        if colors is None:
+            colors = np.full((len(drawing.regions), 3), 255, np.uint8)
+        lines += _areas("region", drawing.regions, [tuple(color) for color in colors.tolist()])
     if drawing.fills:
-        lines.append('<g id="fills" stroke="none">')
-        lines += [
-            f'<path data-fill="{i}" d="{" ".join(_polyline(ring) + " Z" for ring in fill)}" '
-            'fill="#000000" fill-rule="evenodd"/>'
-            for i, fill in enumerate(drawing.fills)
-        ]
-        lines.append("</g>")
+        lines += _areas("fill", drawing.fills, [(0, 0, 0)] * len(drawing.fills))
     lines.append('<g id="strokes" fill="none" stroke-linecap="round" stroke-linejoin="round">')
     lines += [_path(i, stroke) for i, stroke in enumerate(drawing.strokes)]
     return "\n".join([*lines, "</g>", "</svg>", ""])
@@ -62,7 +62,7 @@ def read(text: str, name: str = "The file") -> Drawing:
         _, _, width, height = map(float, root.get("viewBox", "").replace(",", " ").split())
         paths = list(root.iter("{http://www.w3.org/2000/svg}path"))
         fills = tuple(_rings(p.get("d", "")) for p in paths if "data-fill" in p.attrib)
-        lines = [p for p in paths if "data-fill" not in p.attrib]
+        lines = [p for p in paths if not {"data-fill", "data-region"} & p.attrib.keys()]
         strokes = tuple(_stroke(element.attrib, i) for i, element in enumerate(lines))
     except (ElementTree.ParseError, ValueError):
         raise InvoluteError(
@@ -70,6 +70,18 @@ def read(text: str, name: str = "The file") -> Drawing:
         ) from None
     size = (round(width), round(height))
     return Drawing(*_unconnected(strokes), strokes, fills, size, Settings())
+
+
+def _areas(
+    kind: str, areas: Sequence[tuple[Array, ...]], colors: Sequence[tuple[int, int, int]]
+) -> list[str]:
+    """A group of filled paths; an area is the rings of its outline and its holes."""
+    paths = [
+        f'<path data-{kind}="{i}" d="{" ".join(_polyline(ring) + " Z" for ring in area)}" '
+        f'fill="#{bytes(color).hex()}" fill-rule="evenodd"/>'
+        for i, (area, color) in enumerate(zip(areas, colors, strict=True))
+    ]
+    return [f'<g id="{kind}s" stroke="none">', *paths, "</g>"]
 
 
 def _path(index: int, stroke: Stroke) -> str:
