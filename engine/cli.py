@@ -243,6 +243,8 @@ def _trace(options: argparse.Namespace, writers: Mapping[str, Writer]) -> int:
     settings = _settings(options)
     if not options.output:
         raise _UsageError("Say where the drawings go with -o.")
+    if options.start is not None or options.step != 1 or options.align or not options.follow:
+        raise _UsageError("--start, --step, --align and --no-follow need --sequence.")
     try:
         target = planning.target(options.output, options.format)
     except InvoluteError as error:

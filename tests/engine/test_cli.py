@@ -202,6 +202,8 @@ def test_a_failing_writer_leaves_nothing(tmp_path, capsys):
         ["trace", "in.png", "-o", "out.pdf"],
         ["trace", "in.png", "-o", "out", "--format", "svg,pdf"],
         ["trace", "in.png", "in2.png", "-o", "out.svg"],
+        ["trace", "in.png", "-o", "out.svg", "--align"],
+        ["trace", "in.png", "-o", "out.svg", "--start", "5"],
     ],
 )
 def test_wrong_usage_is_2_and_writes_nothing(arguments, tmp_path, monkeypatch, capsys):
