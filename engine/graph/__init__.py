@@ -2,7 +2,7 @@
 
     ridge       where lines run, to the sub-pixel
     skeleton    chains of pixels between ends and branchings
-    cleanup     spurs go
+    cleanup     spurs and rungs go
     tips        sharp bends and the tips of Vs
     halves      the course of every half-branch, outside its blob
     blobs       which branchings belong together
@@ -29,7 +29,7 @@ import numpy as np
 
 from ..settings import Settings
 from ..values import LineMaps, PlanarGraph
-from .cleanup import prune
+from .cleanup import prune, unbridge
 from .dust import sweep
 from .ends import place_ends
 from .gaps import bridge
@@ -58,7 +58,8 @@ def build_graph(maps: LineMaps, pen_width: float, settings: Settings) -> PlanarG
     chains = trace(thin(ridge.mask()))
     if len(chains.rows) == 0:
         return PlanarGraph.empty()
-    graph = prune(contract(_pixel_graph(chains, ridge), 2.0), 3.0, maps.endpoints)
+    graph = prune(contract(_pixel_graph(chains, ridge), 2.0), 3.0, maps)
+    graph = unbridge(graph, ridge.value, maps)
     graph = split_bends(open_tips(graph, ridge.value, 2.0))
     graph = even(resolve(graph, ridge.value, 2.0))
     graph = bridge(place_ends(graph, ridge.value), ridge.value, pen_width)

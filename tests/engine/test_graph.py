@@ -208,3 +208,28 @@ def test_shallow_crossings_are_found_along_the_lines() -> None:
         errors.append(off(graph, MIDDLE))
     assert np.median(errors) < 0.5
     assert max(errors) < 0.8
+
+
+def spots(*points: tuple[float, float]) -> np.ndarray:
+    """A heatmap (SIZE, SIZE) that is bright at some points."""
+    heat = np.zeros((SIZE, SIZE), np.float32)
+    for x, y in points:
+        heat[int(y), int(x)] = 1.0
+    return cv2.min(cv2.GaussianBlur(heat, (0, 0), 1.5) * 14, 1.0)
+
+
+@pytest.mark.parametrize("seen", [True, False])
+def test_a_short_stem_stays_only_where_a_junction_is_seen(seen: bool) -> None:
+    line = np.array([[20.0, 60.3], [100.0, 60.3]])
+    ridge = drawn(line, np.array([[60.3, 60.3], [60.3, 68.0]]))
+    maps = LineMaps(ridge, spots((60.3, 60.3)) if seen else np.zeros_like(ridge))
+    assert build_graph(maps, 2.0, Settings()).branch_count == (3 if seen else 1)
+
+
+@pytest.mark.parametrize("seen", [True, False])
+def test_a_faint_rung_stays_only_where_junctions_are_seen(seen: bool) -> None:
+    rails = [np.array([[20.0, y], [100.0, y]]) for y in (50.3, 58.3)]
+    rung = np.array([[60.3, 50.3], [60.3, 58.3]])
+    ridge = np.maximum(drawn(*rails), 0.6 * drawn(rung))
+    heat = spots((60.3, 50.3), (60.3, 58.3)) if seen else np.zeros_like(ridge)
+    assert build_graph(LineMaps(ridge, heat), 2.0, Settings()).branch_count == (5 if seen else 2)
