@@ -59,7 +59,7 @@ class INVOLUTE_PG_view(bpy.types.PropertyGroup):
             ("5", "5+", "Five or more lines meet"),
         ],
     )
-    page: IntProperty(name="Page", description="Page of the list", default=0, min=0)
+    page: IntProperty(name="Page", description="Page of the list", default=1, min=1)
 
 
 @dataclass(frozen=True, eq=False)

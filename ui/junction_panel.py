@@ -91,7 +91,7 @@ def _filters(layout: bpy.types.UILayout, shown: Shown) -> None:
 def _list(layout: bpy.types.UILayout, shown: Shown, listed: np.ndarray) -> None:
     """A page of the list; the table is too large and too short-lived for a UIList's collection."""
     pages = max(1, -(-len(listed) // _ROWS))
-    page = min(shown.view.page, pages - 1)
+    page = min(shown.view.page, pages) - 1
     box = layout.box().column(align=True)
     if len(listed) == 0:
         box.label(text="No junction passes the filters")
