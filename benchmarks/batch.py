@@ -12,6 +12,7 @@ from __future__ import annotations
 import argparse
 import json
 import os
+import resource
 import signal
 import subprocess
 import sys
@@ -37,9 +38,11 @@ _LEAST_LINE = 3000  # px of line that a page must have: no page of a single dood
 
 @dataclass
 class Run:
-    """One run of the command: its seconds, exit code, and (seconds, MB) of its processes."""
+    """One run of the command: its seconds, processor seconds, exit code, and (seconds, MB) of its
+    processes."""
 
     seconds: float = 0.0
+    cpu: float = 0.0
     code: int | None = None
     memory: list[tuple[float, float]] = field(default_factory=list)
 
@@ -62,8 +65,10 @@ def main() -> int:
 
     whole, broken = options.work / "whole", options.work / "killed"
     run = trace(images, whole, options.jobs)
-    print(f"{options.count} pages in {run.seconds:.0f} s: {60 * options.count / run.seconds:.1f} "
-          f"a minute, exit code {run.code}")  # fmt: skip
+    print(
+        f"{options.count} pages in {run.seconds:.0f} s: {60 * options.count / run.seconds:.1f} a "
+        f"minute, {run.cpu / options.count:.2f} processor seconds a page, exit code {run.code}"
+    )
     print(memory(run))
 
     first = trace(images, broken, options.jobs, stop_at=options.count // 2)
@@ -99,6 +104,7 @@ def trace(images: Path, output: Path, jobs: int, stop_at: int | None = None) -> 
     command = [sys.executable, "-m", "involute", "trace", str(images), "-o", str(output)]
     command += ["--jobs", str(jobs), "--resume", "--report", str(output / "report.json")]
     run, start, next_look = Run(), time.monotonic(), 0.0
+    before = _cpu()
     process = subprocess.Popen(command, start_new_session=True)
     try:
         while (code := process.poll()) is None:
@@ -113,8 +119,14 @@ def trace(images: Path, output: Path, jobs: int, stop_at: int | None = None) -> 
         if process.poll() is None:
             os.killpg(process.pid, signal.SIGKILL)
             process.wait()
-    run.seconds, run.code = time.monotonic() - start, code
+    run.seconds, run.code, run.cpu = time.monotonic() - start, code, _cpu() - before
     return run
+
+
+def _cpu() -> float:
+    """Processor seconds of all processes that have ended below this one."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 def memory(run: Run) -> str:
