@@ -22,6 +22,8 @@ _OPACITY_BLUR = 3.0  # pen widths; the same of opacity, which is noisier
 _FAINTEST = 0.1  # opacity of a stroke at least, so that nothing is there that can't be seen
 _WIDTH_STEP = 0.12  # change of width, in pen widths, that is worth a point of its own
 _OPACITY_STEP = 0.12
+_COARSER = 2.0  # times these steps for curves, which are to have few points
+_APART = 1e3  # between samples; so much more than any change of the ink
 
 
 def build(page: Page, walks: Sequence[Walk]) -> list[Stroke]:
@@ -73,10 +75,13 @@ def _few(
     keep = corner | lines.joint
     keep[lines.start] = keep[lines.stop - 1] = True
     tolerance = page.settings.tolerance
-    if page.settings.curve == "bezier":
-        return fit(points, lines.first, keep, corner, tolerance)
     # A change of the ink is as good a reason for a point as a bend.
     ink = np.column_stack([widths / (_WIDTH_STEP * page.pen), opacity / _OPACITY_STEP])
+    if page.settings.curve == "bezier":
+        # Over the place along the line, so far apart that a distance is one of the ink alone.
+        along = _APART * np.arange(len(points))
+        keep = simplify(np.column_stack([along, ink / _COARSER]), keep, 1.0)
+        return fit(points, lines.first, keep, corner, tolerance)
     return simplify(np.column_stack([points, ink * tolerance]), keep, tolerance), None
 
 
