@@ -22,7 +22,7 @@ from ..operators.junction_words import letters, percent, sentence
 from ..operators.under_mouse import places_on_screen
 from .batches import kept
 from .colors import LOOSE
-from .overlay_geometry import labels, routes
+from .overlay_geometry import labels, sketch
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -38,6 +38,7 @@ _EDGE = (0.35, 0.35, 0.36, 1.0)
 _IN_FORCE = (0.35, 0.62, 1.0, 1.0)
 _TEXT = (0.92, 0.92, 0.92, 1.0)
 _FONT = 0
+_REACH, _GAP = 30.0, 0.25  # px of a sketch around its junction; share of it that an end leaves out
 _BADGE = 9.0  # px; radius of the disc behind a letter
 
 
@@ -162,19 +163,15 @@ _CORNERS = np.array([(0, 0), (1, 0), (1, 1), (0, 1)], np.float32)
 
 
 def _sketch(shown: Shown, pairs: object, card: Card, scale: float) -> list[tuple[Array, Rgba]]:
-    """The junction as it would be, as seen on the page; every line starts a bit off the middle."""
+    """The junction as it would be, as seen on the page; what ends there shows a gap."""
     middle = np.array([card.x + card.width / 2, card.y + card.height / 2 + 2 * scale])
-    size = 30 * scale
-    centre = np.array(shown.junction.position)
     found = []
-    for route in routes(shown.trace.drawing, shown.junction, pairs):
-        line = (route.points - centre) * (1, -1)
-        length = np.abs(line).max() or 1.0
-        line = line * (size / max(length, 1e-6))
-        if not route.joined:  # an end shows a gap
-            line = line[np.linalg.norm(line, axis=1) > 7 * scale]
+    for route in sketch(shown.trace.drawing, shown.junction, pairs):
+        line = route.points
+        if not route.joined:
+            line = line[np.linalg.norm(line, axis=1) > _GAP]
         if len(line) > 1:
-            found.append((line + middle, (*route.color, 1.0)))
+            found.append((middle + _REACH * scale * line, (*route.color, 1.0)))
     return found
 
 

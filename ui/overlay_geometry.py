@@ -12,7 +12,7 @@ from ..operators.under_mouse import near_part
 from .colors import LOOSE, STROKES, Color, doubt_colors
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Callable, Iterable
 
     from ..engine import Drawing, Junction
     from ..operators.junction_table import JunctionTable
@@ -65,15 +65,30 @@ def rings(table: JunctionTable, radius: float, scale: tuple[Color, Color, Color]
 
 def routes(drawing: Drawing, junction: Junction, pairs: Iterable[tuple[int, int]]) -> list[Route]:
     """The half-branches of a junction, joined as a routing says, each stroke in its own colour."""
+    return _joined(junction, pairs, lambda half: _outward(drawing, half))
+
+
+def sketch(drawing: Drawing, junction: Junction, pairs: Iterable[tuple[int, int]]) -> list[Route]:
+    """The same around (0, 0), y up; every half-branch reaches out as far as 1, long or short."""
+
+    def arm(half: int) -> Array:
+        line = (_outward(drawing, half) - junction.position) * (1, -1)
+        return line / max(np.linalg.norm(line, axis=1).max(), 1e-6)
+
+    return _joined(junction, pairs, arm)
+
+
+def _joined(
+    junction: Junction, pairs: Iterable[tuple[int, int]], arm: Callable[[int], Array]
+) -> list[Route]:
+    """Routes of arms, the lines of half-branches from the junction outward."""
     left = set(junction.half_branches)
     found = []
     for number, (a, b) in enumerate(sorted(pairs)):
-        line = np.concatenate([_outward(drawing, a)[::-1], _outward(drawing, b)[1:]])
+        line = np.concatenate([arm(a)[::-1], arm(b)[1:]])
         found.append(Route(line.astype(np.float32), STROKES[number % len(STROKES)], True))
         left -= {a, b}
-    found += [
-        Route(_outward(drawing, half).astype(np.float32), LOOSE, False) for half in sorted(left)
-    ]
+    found += [Route(arm(half).astype(np.float32), LOOSE, False) for half in sorted(left)]
     return found
 
 

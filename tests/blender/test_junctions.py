@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from .drawings import cross, grid
+from .drawings import cross, grid, ring_and_lines
 from .test_grease_pencil import make
 from .test_rerouting import assert_same, drawing_of, strokes_in
 
@@ -225,6 +225,19 @@ def test_overlay_geometry(part):
     assert [route.joined for route in routes] == [True, False, False]
     middle = np.array(junction.position)
     assert np.linalg.norm(routes[0].points - middle, axis=1).min() < 1e-3
+
+
+def test_sketches_show_short_lines_as_large_as_long_ones(part):
+    """Else the card of a short and a long line that are joined shows nothing of the short one."""
+    geometry, drawing = part("ui.overlay_geometry"), ring_and_lines(part)
+    for junction in drawing.junctions:
+        for way in junction.alternatives:
+            for route in geometry.sketch(drawing, junction, way.pairs):
+                away = np.linalg.norm(route.points, axis=1)
+                middle = int(away.argmin())
+                assert away[middle] < 1e-3
+                arms = [away[middle:], away[: middle + 1]] if route.joined else [away]
+                assert [arm.max() for arm in arms] == pytest.approx([1.0] * len(arms))
 
 
 def test_overlay_and_panels_are_there(bpy, part, traced):
