@@ -11,7 +11,7 @@ Array = np.ndarray
 
 _SOFT = 0.8  # px; how far a scanner spreads the ink of a line
 _FAINTER = 0.65  # of the ink's strength: what pencil under it is at most
-_BETWEEN = 0.02  # of the lines: how much may be neither pencil nor ink
+_BETWEEN = (0.2, 0.7)  # of the lines, how much may be neither: 0.2 for each 1 below 0.7 of the ink
 _LEAST = 0.1  # of the lines: what pencil, or ink, must have; less may be dirt, or badly printed
 _INNER = 0.2  # of a branch at either end: other lines are near
 
@@ -30,8 +30,8 @@ def undimmed(strength: Array, widths: Array) -> Array:
 def pencil(graph: PlanarGraph, chosen: Array, length: Array) -> tuple[Array, float]:
     """Tell pencil from the ink that was drawn over it.
 
-    A page has both when the strengths of its lines form two clusters, with next to nothing between
-    them and one much fainter than the other. One cluster, however wide, is one medium: hardly and
+    A page has both when the strengths of its lines form two clusters, with the less between them the
+    less they differ, and one much fainter than the other. One cluster, however wide, is one medium: hardly and
     firmly drawn pencil stays together.
 
     Args:
@@ -41,9 +41,9 @@ def pencil(graph: PlanarGraph, chosen: Array, length: Array) -> tuple[Array, flo
     Returns:
         (B,) bool, the branches that are pencil; and how strong it is beside the ink, 1 = as strong.
     """
-    none = np.zeros(graph.branch_count, bool)
+    found = np.zeros(graph.branch_count, bool)
     if graph.strength is None or graph.widths is None or chosen.sum() < 2:
-        return none, 1.0
+        return found, 1.0
     strength = _of_branches(graph)
     order = np.flatnonzero(chosen)[np.argsort(strength[chosen], kind="stable")]
     value, weight = strength[order], length[order] + 1e-6
@@ -57,13 +57,13 @@ def pencil(graph: PlanarGraph, chosen: Array, length: Array) -> tuple[Array, flo
     between = weight[(value > low + third) & (value < high - third)].sum()
     told_apart = (
         low < _FAINTER * high
-        and between < _BETWEEN * below[-1]
+        and between < _BETWEEN[0] * (_BETWEEN[1] - low / high) * below[-1]
         and min(below[split], above[split]) > _LEAST * below[-1]
     )
     if not told_apart:
-        return none, 1.0
-    none[order[: split + 1]] = True
-    return none, low / high
+        return found, 1.0
+    found[order[: split + 1]] = True
+    return found, low / high
 
 
 def neutral(graph: PlanarGraph) -> Array:
