@@ -30,9 +30,9 @@ def undimmed(strength: Array, widths: Array) -> Array:
 def pencil(graph: PlanarGraph, chosen: Array, length: Array) -> tuple[Array, float]:
     """Tell pencil from the ink that was drawn over it.
 
-    A page has both when the strengths of its lines form two clusters, with the less between them the
-    less they differ, and one much fainter than the other. One cluster, however wide, is one medium: hardly and
-    firmly drawn pencil stays together.
+    A page has both when the strengths of its lines form two clusters, one much fainter than the
+    other, with the less between them the less they differ. One cluster, however wide, is one
+    medium: hardly and firmly drawn pencil stays together.
 
     Args:
         chosen: (B,) bool, the branches to look at: black and grey ones.
