@@ -12,6 +12,7 @@
     ends        free ends where the line ends
     gaps        lines go on where the pen broke off
     smoothing   even, smooth points
+    planar      a vertex wherever two branches still cross
                                                                     all of that is build_graph
     measure     width, darkness and colour of the ink along every branch
     ignored     pencil under ink goes, if it is not wanted (without_pencil)
@@ -36,6 +37,7 @@ from .gaps import bridge
 from .ignored import without_pencil
 from .junctions import resolve
 from .measure import measure
+from .planar import planarized
 from .ridge import Ridge
 from .skeleton import Chains, thin, trace
 from .smoothing import even, smooth
@@ -64,6 +66,7 @@ def build_graph(maps: LineMaps, pen_width: float, settings: Settings) -> PlanarG
     graph = even(resolve(graph, ridge.value, 2.0))
     graph = bridge(place_ends(graph, ridge.value), ridge.value, pen_width)
     graph = join(even(smooth(even(graph), round(10 * settings.smoothing))))
+    graph = planarized(graph, ridge.value.shape)
     # A curve that was continued must not leave the page.
     page = np.array(ridge.value.shape[::-1], np.float32)
     return replace(

@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..values import PlanarGraph
-from .curves import pairs_within
+from .nearby import near_pairs
 from .ridge import CLEAR, PEAK
 from .sampling import sample
 from .topology import lengths
@@ -40,7 +40,7 @@ def bridge(graph: PlanarGraph, value: Array, pen_width: float) -> PlanarGraph:
     free = np.flatnonzero(graph.degrees[graph.half_vertex] == 1)
     reach = max(LEAST, WIDEST * pen_width)
     tips, outward = _looks(graph, free)
-    a, b = _near(tips, reach).T
+    a, b = near_pairs(tips, reach).T
     # Both ends of one short piece look away from each other, but see each other all the same.
     a, b = (v[free[a] >> 1 != free[b] >> 1] for v in (a, b))
     way = tips[b] - tips[a]
@@ -76,17 +76,6 @@ def _looks(graph: PlanarGraph, free: Array) -> tuple[Array, Array]:
     tips = graph.points[tip].astype(np.float64)
     outward = tips - inner
     return tips, outward / np.maximum(np.hypot(*outward.T), 1e-9)[:, None]
-
-
-def _near(points: Array, reach: float) -> Array:
-    """(K, 2) all pairs of points (N, 2) at most `reach` px apart, and some others."""
-    found = [np.zeros((0, 2), np.int64)]
-    # Of four grids, shifted by half a cell, one has both points of a pair in one cell.
-    for shift in np.stack(np.meshgrid([0, reach], [0, reach]), -1).reshape(-1, 2):
-        cell = ((points + shift) // (2 * reach)).astype(np.int64)
-        group = np.unique(cell, axis=0, return_inverse=True)[1].reshape(-1)
-        found.append(pairs_within(group))
-    return np.unique(np.sort(np.concatenate(found), axis=1), axis=0)
 
 
 def _cross(a: Array, b: Array) -> Array:

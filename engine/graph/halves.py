@@ -42,7 +42,7 @@ class Halves:
     bend: Array
 
 
-def _spoilt(graph: PlanarGraph, shape: tuple[int, int], reach: float) -> Array:
+def spoilt(graph: PlanarGraph, shape: tuple[int, int], reach: float) -> Array:
     """(P,) bool: points nearer than `reach` px to a line that isn't their own course."""
     counts = np.diff(graph.offsets)
     # A number per point that jumps between branches: far apart = not the same piece of line.
@@ -51,7 +51,9 @@ def _spoilt(graph: PlanarGraph, shape: tuple[int, int], reach: float) -> Array:
     pixel = np.clip(graph.points.astype(np.int32), 0, np.array(shape[::-1]) - 1) + margin
     image = np.zeros(np.add(shape, 2 * margin), np.int32)
     image[pixel[:, 1], pixel[:, 0]] = place
-    # Vertices belong to several branches, so they spoil all of them.
+    # What shares a pixel with another line is spoilt, and so are all branches at their vertices.
+    shares = np.abs(image[pixel[:, 1], pixel[:, 0]] - place) > 8
+    image[pixel[shares, 1], pixel[shares, 0]] = -(1 << 20)
     ends = np.concatenate([graph.offsets[:-1], graph.offsets[1:] - 1])
     image[pixel[ends, 1], pixel[ends, 0]] = -(1 << 20)
     flat, base = image.ravel(), pixel[:, 1] * image.shape[1] + pixel[:, 0]
@@ -73,7 +75,7 @@ def read_halves(graph: PlanarGraph, value: Array, pen: float) -> Halves:
         value: (H, W) the smoothed centerline map.
         pen: width of the ridge, px.
     """
-    dirty = _spoilt(graph, value.shape, REACH * max(1.0, pen / 2))
+    dirty = spoilt(graph, value.shape, REACH * max(1.0, pen / 2))
     starts, stops = graph.offsets[:-1].astype(np.int64), graph.offsets[1:].astype(np.int64) - 1
     index = np.arange(len(graph.points))
     usable = np.where(dirty, len(index), index)

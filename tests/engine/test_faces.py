@@ -64,6 +64,6 @@ def test_euler_counts_the_regions_and_they_do_not_overlap(scribble, seed, count)
     groups = len(set(parent.tolist()))
     # Euler: V - E + F = 1 + C, one face being the outside.
     assert len(regions) <= graph.branch_count - len(graph.vertices) + groups
-    assert len(regions) >= graph.branch_count - len(graph.vertices) + groups - 2  # slivers
+    assert len(regions) >= graph.branch_count - len(graph.vertices) + groups - 4  # slivers
     box_area = np.prod(np.ptp(graph.points, axis=0).astype(float))
     assert sum(net_area(r) for r in regions) <= box_area * 1.001 + 1
