@@ -34,7 +34,8 @@ def flatten_paper(gray: Array) -> Array:
     share = _to_grid(bare)
     known = share > 0.1
     mean = _smooth_fill(_to_grid(rough * bare) / np.maximum(share, 1e-3), known)
-    darkness = without_rules(rough - _from_grid(mean, gray.shape))
+    darkness = np.subtract(rough, _from_grid(mean, gray.shape), out=rough)
+    darkness = without_rules(darkness)
     pen = _pen_level(darkness)
     _gate(darkness, bare, pen)
     return np.minimum(darkness / _full_ink(darkness, pen), 1.0)

@@ -27,6 +27,7 @@ _REACH, _STRAY = (
     4,
     2,
 )  # px that the tone reaches from a rule's middle, and this from a straight line
+_HIDDEN = 0.4  # share of a rule between or beyond others that shows at least
 _NOISE = 1.6  # times as dark as the rule: that is ink
 _EDGE = 0.08  # of a rule's tone that still counts as rule
 
@@ -173,9 +174,12 @@ def _take_out(page: Array, lines: _Lines) -> Array:
     typical = float(np.median(tone))
     alike = (tone < _ALIKE * typical) & (_ALIKE * tone > typical)
     shape = np.median(profile / np.maximum(tone, 1e-6), 1)
-    cut_off = _cut_off(lines, height, width).places(width)
-    place = np.concatenate([place[alike], cut_off])
-    level = np.append(tone[alike], np.full(len(cut_off), typical))
+    more = _between_and_beyond(lines, height, width).places(width)
+    on_page = (more >= 0) & (more < height)
+    shows = on_page & (page[np.clip(more, 0, height - 1), column] > 0.4 * typical)
+    more = more[shows.sum(1) > _HIDDEN * np.maximum(on_page.sum(1), 1)]
+    place = np.concatenate([place[alike], more])
+    level = np.append(tone[alike], np.full(len(more), typical))
     for offset, part in zip(offsets, shape, strict=True):
         if part > _EDGE:
             line, x = np.nonzero((place + offset >= 0) & (place + offset < height))
@@ -188,15 +192,17 @@ def _take_out(page: Array, lines: _Lines) -> Array:
     return tone[alike]
 
 
-def _cut_off(lines: _Lines, height: int, width: int) -> _Lines:
-    """The rules before the first and behind the last one that leave a turned page at its side."""
-    none = np.zeros(0, int)
+def _between_and_beyond(lines: _Lines, height: int, width: int) -> _Lines:
+    """Where a rule may be that too few strips show: hidden by the drawing, or cut off by the side
+    of a turned page."""
     if len(lines.at) < _FEWEST:
-        return lines.take(none)
-    pitch = float(np.median(np.diff(lines.at)))
-    rise = abs(lines.slope) * width / 2
-    steps = np.arange(1, 2 + int(2 * rise / pitch))
-    before, behind = lines.at[0] - pitch * steps, lines.at[-1] + pitch * steps
-    before, behind = before[np.abs(before) < rise], behind[np.abs(behind - height) < rise]
-    ends = lines.take(np.repeat([0, -1], [len(before), len(behind)]))
-    return replace(ends, at=np.concatenate([before, behind]))
+        return lines.take(np.zeros(0, int))
+    gaps = np.diff(lines.at)
+    pitch, rise = float(np.median(gaps)), abs(lines.slope) * width / 2
+    parts = np.maximum(np.round(gaps / pitch), 1).astype(int)
+    at = [a + gap / n * np.arange(1, n) for a, gap, n in zip(lines.at, gaps, parts, strict=False)]
+    at.append(np.arange(lines.at[0] - pitch, -rise, -pitch))
+    at.append(np.arange(lines.at[-1] + pitch, height + rise, pitch))
+    every = np.concatenate(at)
+    nearest = np.abs(lines.at[:, None] - every).argmin(0)
+    return replace(lines.take(nearest), at=every)

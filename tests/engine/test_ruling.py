@@ -49,6 +49,14 @@ def test_a_pencil_line_as_pale_as_the_rules_stays():
     assert left[ink == 0].mean() < 0.004
 
 
+def test_a_rule_hidden_by_the_drawing_goes_too():
+    ink = drawing()
+    for x in range(20, 420, 8):  # a fence over one of the rules
+        ink[280:320, x : x + 3] = 1
+    page = together(0.9 * ink, sheet(40.0, 0.0, 0.3, grid=False))
+    assert without_rules(page)[280:320, 480:][ink[280:320, 480:] == 0].max() < 0.1
+
+
 def test_a_bare_ruled_sheet_is_bare():
     gray = 0.9 - 0.9 * sheet(40.0, 0.01, 0.25, grid=True)
     assert flatten_paper(gray).mean() < 0.002
