@@ -22,7 +22,7 @@ from .twins import told_apart
 
 Array = np.ndarray
 
-MERGE = 2.0  # px; crossings nearer than this are one junction
+MERGE = 1.4  # px; crossings nearer than this are one junction
 TOUCH = 0.6  # px; curves that come this near touch
 STRAY = 6.0  # px; a stem may miss the curve that it ends on by this much
 
