@@ -22,11 +22,13 @@ REACH = np.geomspace(1.0, 128.0, 16)
 WINDOWS = np.array([[1.0, 6.0], [3.0, 14.0], [6.0, 32.0]])
 # The window that sets the frame of a half-branch.
 FRAME = np.array([[2.0, 10.0]])
+# Arc lengths, px, at which the ink of a half-branch is compared: near its junction and farther out.
+INK_NEAR, INK_FAR = np.array([2.0, 4.0, 6.0, 8.0]), np.array([12.0, 18.0, 26.0, 36.0])
 # Junctions with more half-branches than this are too rare to be learnt.
 MAX_DEGREE = 8
 
 _FAR_DEGREES = 5  # none, 1, 3, 4, 5 and more
-TOKEN_SIZE = 2 * len(REACH) + 2 * len(WINDOWS) + 4 + _FAR_DEGREES + 9
+TOKEN_SIZE = 2 * len(REACH) + 2 * len(WINDOWS) + 4 + _FAR_DEGREES + 11
 PAIR_SIZE = 2 * len(REACH) + 4 * len(WINDOWS) + 15
 
 
@@ -127,17 +129,33 @@ def along(graph: PlanarGraph, reach: Array) -> tuple[Array, Array]:
         (2B, S) complex x + iy, and the (2B,) length of the branch, px.
     """
     points = graph.points[:, 0].astype(np.float64) + 1j * graph.points[:, 1]
+    where, arc, length = _places(graph, reach)
+    ends = np.stack([graph.offsets[:-1], graph.offsets[1:] - 1], 1).reshape(-1)
+    found = np.interp(where, arc, points) if len(points) else where.astype(complex)
+    return found - points[ends][:, None], length
+
+
+def _places(graph: PlanarGraph, reach: Array) -> tuple[Array, Array, Array]:
+    """All branches laid end to end: (2B, S) where on that axis each half-branch is after `reach`,
+    the (P,) points on it, and the (2B,) length of each half-branch's branch, px."""
     first, last = graph.offsets[:-1], graph.offsets[1:] - 1
-    step = np.abs(np.diff(points, prepend=points[:1]))
+    step = np.hypot(*np.diff(graph.points.astype(np.float64), axis=0, prepend=graph.points[:1]).T)
     step[first] = 1.0  # a gap between branches, so that the arc length grows for ever
     arc = np.cumsum(step)
     length = np.repeat(arc[last] - arc[first], 2)
     origin = np.stack([arc[first], arc[last]], 1).reshape(-1)
     sign = np.tile([1.0, -1.0], graph.branch_count)
-    vertex = np.stack([points[first], points[last]], 1).reshape(-1)
-    where = origin[:, None] + sign[:, None] * np.minimum(reach, length[:, None])
-    found = np.interp(where, arc, points) if len(points) else where.astype(complex)
-    return found - vertex[:, None], length
+    return origin[:, None] + sign[:, None] * np.minimum(reach, length[:, None]), arc, length
+
+
+def _rise(graph: PlanarGraph, values: Array | None) -> Array:
+    """(2B,) how much larger a value of the points is near the junction than farther out; zeros
+    where it is unknown. A stroke that ends at the junction may taper or fade towards it."""
+    if values is None or not len(values):
+        return np.zeros(2 * graph.branch_count)
+    where, arc, _ = _places(graph, np.concatenate([INK_NEAR, INK_FAR]))
+    seen = np.interp(where, arc, values)
+    return seen[:, : len(INK_NEAR)].mean(1) - seen[:, len(INK_NEAR) :].mean(1)
 
 
 def _unit(z: Array) -> Array:
@@ -197,6 +215,7 @@ def _token_features(
     far_degree = np.array([0, 1, 0, 2, 3, 4])[np.minimum(graph.degrees[far_vertex], 5)]
     width, strength, _ = _appearance(graph)
     length = shape.length[half]
+    log_width = None if graph.widths is None else np.log(np.maximum(graph.widths, 0.3))
     scalars = (
         np.log(np.maximum(length, 0.5) / 16.0),
         np.minimum(length / 16.0, 1.0),
@@ -207,6 +226,8 @@ def _token_features(
         width[half >> 1],
         np.full(len(half), graph.widths is not None),
         strength[half >> 1],
+        2.0 * _rise(graph, log_width)[half],
+        4.0 * _rise(graph, graph.strength)[half],
     )
     return np.concatenate(
         [

@@ -128,6 +128,28 @@ def test_empty_slots_and_other_pages_sizes_change_no_score(scribble: Scribble) -
     np.testing.assert_array_equal(narrow.pairs, wide.pairs[:, :slots, :slots])
 
 
+def test_a_stem_that_tapers_or_fades_towards_its_junction_is_seen() -> None:
+    graph, _ = graph_from_strokes([_line((20, 60), (180, 60)), _line((100, 60), (100, 150))])
+    flat = np.full(len(graph.points), 4.0, np.float32)
+    below = graph.points[:, 1] - 60
+    thin = (flat * np.clip(0.3 + below / 20, 0, 1)).astype(np.float32)
+    inks = {
+        "plain": replace(graph, widths=flat, strength=flat / 8),
+        "unknown": replace(graph, widths=None, strength=None),
+        "tapered": replace(graph, widths=np.where(below > 0, thin, flat), strength=flat / 8),
+        "faded": replace(graph, widths=flat, strength=np.where(below > 0, thin, flat) / 8),
+    }
+    encoded = {name: encode(ink) for name, ink in inks.items()}
+    rise = {name: e.tokens[0, :, -2:] for name, e in encoded.items()}
+    stem = graph.points[graph.offsets[1:] - 1, 1][encoded["plain"].halves[0] >> 1] > 100
+    assert stem.sum() == 1
+    np.testing.assert_allclose(rise["plain"], 0, atol=1e-5)
+    np.testing.assert_array_equal(rise["unknown"], 0)
+    assert rise["tapered"][stem, 0] < -0.5
+    assert rise["faded"][stem, 1] < -0.5
+    np.testing.assert_allclose(rise["tapered"][~stem], 0, atol=0.02)
+
+
 def test_a_star_of_too_many_arms_gets_its_geometric_score() -> None:
     graph = _star(MAX_DEGREE + 1)
     pairs = candidate_pairs(graph)

@@ -18,7 +18,7 @@ Array = np.ndarray
 
 # How often a source is drawn from; see the data's own README for why.
 SOURCES = {
-    "openclipart": 6.0,
+    "openclipart": 3.0,
     "streamline": 3.0,
     "quickdraw_raw": 2.5,
     "quickdraw_simplified": 0.5,
