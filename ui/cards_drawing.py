@@ -182,10 +182,12 @@ def _fitting(text: str, size: float, room: float) -> float:
 
 
 def _disc(radius: float) -> gpu.types.GPUBatch:
-    turn = np.linspace(0, 2 * np.pi, 24)
+    turn = np.arange(24) * (2 * np.pi / 24)
     points = radius * np.stack([np.cos(turn), np.sin(turn)], axis=1)
+    corner = np.arange(1, 23, dtype=np.int32)
+    triangles = np.stack([np.zeros_like(corner), corner, corner + 1], axis=1)
     shader = gpu.shader.from_builtin("UNIFORM_COLOR")
-    return batch_for_shader(shader, "TRI_FAN", {"pos": _in_space(points)})
+    return batch_for_shader(shader, "TRIS", {"pos": _in_space(points)}, indices=triangles)
 
 
 def _rectangles(areas: Sequence[tuple[Array, Rgba]]) -> gpu.types.GPUBatch:
