@@ -20,6 +20,7 @@ from involute.training.centerline import (  # noqa: E402
     sample,
     wear,
 )
+from involute.training.centerline.average import main as average  # noqa: E402
 from involute.training.centerline.data import Pages, split  # noqa: E402
 from involute.training.centerline.export import export, folded, worst_difference  # noqa: E402
 from involute.training.centerline.geometry import Library  # noqa: E402
@@ -200,6 +201,16 @@ def test_a_run_goes_on_from_shipped_weights(drawings, tmp_path):
     trained = restored(tmp_path / "checkpoint.pt")
     export(trained, tmp_path / "next.onnx")
     assert worst_difference(trained, tmp_path / "next.onnx") < 1e-3
+
+
+def test_the_mean_of_two_networks_lies_between_them(tmp_path):
+    one, other = (CenterlineNet((4, 8), norms=False).eval() for _ in range(2))
+    for net, name in ((one, "one"), (other, "other")):
+        export(net, tmp_path / f"{name}.onnx")
+    out = tmp_path / "mean.onnx"
+    average([str(tmp_path / "one.onnx"), str(tmp_path / "other.onnx"), "--out", str(out)])
+    middle = (one.head.weight + other.head.weight) / 2
+    torch.testing.assert_close(restored(out).head.weight, middle, atol=1e-3, rtol=0)
 
 
 def test_opencv_and_both_torch_forms_agree(tmp_path):
