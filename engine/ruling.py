@@ -23,10 +23,7 @@ _SPAN = 0.5  # of the page that rules cover
 _PEN, _PEN_PIXELS = 1.7, 60  # so many pixels so many times as dark as the rules: a pen
 _PALE = 0.5  # how dark the rules of an otherwise blank page may be
 _ALIKE = 2.5  # times that one rule may be darker or paler than the others
-_REACH, _STRAY = (
-    4,
-    2,
-)  # px that the tone reaches from a rule's middle, and this from a straight line
+_REACH, _STRAY = 4, 2  # px that a rule's tone reaches from its middle; that it may stray
 _HIDDEN = 0.4  # share of a rule between or beyond others that shows at least
 _NOISE = 1.6  # times as dark as the rule: that is ink
 _EDGE = 0.08  # of a rule's tone that still counts as rule

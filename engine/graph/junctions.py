@@ -24,6 +24,8 @@ Array = np.ndarray
 
 MERGE = 1.4  # px; crossings nearer than this are one junction
 TOUCH = 0.6  # px; curves that come this near touch
+BENT = 0.4  # cost of a continuation that is none too smooth
+STAR = 0.6  # px; how far beside their meeting point straight half-branches may pass
 STRAY = 6.0  # px; a stem may miss the curve that it ends on by this much
 
 
@@ -62,6 +64,7 @@ def _rebuild(
     pairs = pairs_within(h_group)
     found = fits.of(pairs)
     chosen = np.flatnonzero(best_pairing(h_group, pairs, found.cost))
+    chosen = chosen[~_stars(h_group, pairs[chosen], found.cost[chosen], graph, half, value)]
     through = pairs[chosen]
     alone = h_group >= 0
     alone[through] = False
@@ -93,6 +96,35 @@ def _rebuild(
     stops, places = _stops(meetings, curves, curve_blob, is_stem, lone)
     active = blob >= 0
     return _assemble(graph, half, active, inner, through, stems, curves, stops, places)
+
+
+def _stars(
+    group: Array, through: Array, cost: Array, graph: PlanarGraph, half: Halves, value: Array
+) -> Array:
+    """(K,) bool: pairs of blobs whose half-branches, straight on, all meet in one point.
+
+    Where lines end together the smoothest pairs would bend around that point.
+    """
+    bent = np.unique(group[through[cost > BENT, 0]])
+    member = np.flatnonzero(np.isin(group, bent) & (group >= 0))
+    if not len(member):
+        return np.zeros(len(through), bool)
+    home = np.searchsorted(bent, group[member])
+    count = np.bincount(home)
+    middle = np.stack([np.bincount(home, half.points[member, 0, k]) / count for k in (0, 1)], -1)
+    reach = np.hypot(*(middle[home] - half.points[member, 0]).T) + MERGE
+    paths = extend(half.points[member], half.weights[member], reach)
+    place = _meeting_points(paths, home, middle, value)
+    gap = np.hypot(*np.moveaxis(paths - place[home, None], -1, 0))
+    near = np.clip(gap.argmin(1), 1, SAMPLES - 2)
+    rows = np.arange(len(paths))
+    course = paths[rows, near + 1] - paths[rows, near - 1]
+    course /= np.maximum(np.hypot(*course.T), 1e-9)[:, None]
+    off = place[home] - paths[rows, near]
+    aside = np.abs(off[:, 0] * course[:, 1] - off[:, 1] * course[:, 0])
+    worst = np.zeros(len(bent))
+    np.maximum.at(worst, home, aside)
+    return np.isin(group[through[:, 0]], bent[(worst < STAR) & (count > 2)])
 
 
 def _meetings(curves: Array, blob: Array, is_stem: Array) -> Array:

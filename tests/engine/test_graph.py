@@ -96,7 +96,7 @@ def test_a_line_ends_on_another_without_gap_or_overshoot(angle: float) -> None:
 def test_stars_meet_in_one_point(degrees: tuple[float, ...]) -> None:
     graph = graph_of(*(ray(d, 0, 40) for d in degrees))
     assert junction_degrees(graph) == [len(degrees)]
-    assert off(graph, MIDDLE) < 1.0
+    assert off(graph, MIDDLE) < 0.5
 
 
 def test_a_star_of_four_lines() -> None:
