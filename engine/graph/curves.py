@@ -59,10 +59,9 @@ class Fits:
         """(K, SAMPLES, 2) points from the first exit to the second."""
         t = np.linspace(0, 1, SAMPLES)
         x = self.span[:, :1] * (1 - t) + self.span[:, 1:] * t
-        # Off the exits a good cubic knows better than any single ridge point.
-        power = 1 + (FADE - 1) * np.exp(-self.cost)[:, None]
-        y = _value(self.coefficients, x)
-        y = y + self.offset[:, :1] * (1 - t) ** power + self.offset[:, 1:] * t**power
+        # Off the exits the cubic knows better than any single ridge point.
+        fade = np.stack([(1 - t) ** FADE, t**FADE])
+        y = _value(self.coefficients, x) + self.offset @ fade
         ax, ay = self.axis[:, None, 0], self.axis[:, None, 1]
         x = x * self.scale[:, None]
         return self.origin[:, None] + np.stack([x * ax - y * ay, x * ay + y * ax], -1)
