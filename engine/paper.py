@@ -29,16 +29,24 @@ def flatten_paper(gray: Array) -> Array:
         ink, (H, W) float32 in [0, 1]: 0 on paper, about 1 on a full pen stroke, anti-aliased.
     """
     gray = np.ascontiguousarray(gray, np.float32)
-    rough = 1.0 - gray / _light_paper(gray)
-    bare = (rough < 0.04 + 3.0 * _texture(rough)).astype(np.float32)
-    share = _to_grid(bare)
+    # In place wherever it can be: a page of 8192 px has 256 MiB in every such array.
+    rough = _light_paper(gray)
+    np.subtract(1.0, np.divide(gray, rough, out=rough), out=rough)
+    limit = _texture(rough)
+    limit *= 3.0
+    limit += 0.04
+    bare = (rough < limit).view(np.uint8)
+    del limit
+    share = _to_grid(bare.astype(np.float32))
     known = share > 0.1
     mean = _smooth_fill(_to_grid(rough * bare) / np.maximum(share, 1e-3), known)
     darkness = np.subtract(rough, _from_grid(mean, gray.shape), out=rough)
     darkness = without_rules(darkness)
     pen = _pen_level(darkness)
     _gate(darkness, bare, pen)
-    return np.minimum(darkness / _full_ink(darkness, pen), 1.0)
+    del bare
+    np.divide(darkness, _full_ink(darkness, pen), out=darkness)
+    return np.minimum(darkness, 1.0, out=darkness)
 
 
 def _light_paper(gray: Array) -> Array:
@@ -51,13 +59,18 @@ def _light_paper(gray: Array) -> Array:
     reach = np.ones((max(3, coarse.shape[0] // 2), max(3, coarse.shape[1] // 2)), np.uint8)
     bright = cv2.morphologyEx(coarse, cv2.MORPH_CLOSE, reach)
     bright = cv2.resize(bright, grid.shape[::-1], interpolation=cv2.INTER_LINEAR)
-    return np.maximum(_from_grid(_smooth_fill(grid, grid > 0.5 * bright), gray.shape), 0.05)
+    del smooth
+    paper = _from_grid(_smooth_fill(grid, grid > 0.5 * bright), gray.shape)
+    return np.maximum(paper, 0.05, out=paper)
 
 
 def _texture(rough: Array) -> Array:
     """A first guess of the grain (standard deviation) at each pixel, kept below hatching's."""
-    high = np.abs(rough - cv2.GaussianBlur(rough, (0, 0), 1.5))
-    return _from_grid(np.minimum(1.25 * cv2.medianBlur(_to_grid(high), 5), 0.06), rough.shape)
+    high = cv2.GaussianBlur(rough, (0, 0), 1.5)
+    np.abs(np.subtract(rough, high, out=high), out=high)
+    grid = np.minimum(1.25 * cv2.medianBlur(_to_grid(high), 5), 0.06)
+    del high
+    return _from_grid(grid, rough.shape)
 
 
 def _pen_level(darkness: Array) -> float:
@@ -81,11 +94,17 @@ def _gate(darkness: Array, bare: Array, pen: float) -> None:
     """
     smooth = cv2.GaussianBlur(darkness, (0, 0), 1.2)
     calm = cv2.erode(bare, np.ones((5, 5), np.uint8))  # not the foot of a line
-    share = _to_grid(calm)
-    variance = _to_grid(np.square(smooth) * calm) / np.maximum(share, 1e-3)
+    share = _to_grid(calm.astype(np.float32))
+    square = np.square(smooth)
+    square *= calm
+    variance = _to_grid(square) / np.maximum(share, 1e-3)
+    del square, calm
     grain = np.sqrt(_smooth_fill(variance, share > 0.1))
     low = _from_grid(np.maximum(3.5 * grain + 0.005, 0.08 * pen), darkness.shape)
-    darkness *= np.clip((smooth - low) / (0.6 * low), 0.0, 1.0)
+    smooth -= low
+    low *= 0.6
+    smooth /= low
+    darkness *= np.clip(smooth, 0.0, 1.0, out=smooth)
     np.maximum(darkness, 0.0, out=darkness)
 
 

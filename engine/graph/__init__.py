@@ -60,15 +60,17 @@ def build_graph(maps: LineMaps, pen_width: float, settings: Settings) -> PlanarG
     chains = trace(thin(ridge.mask()))
     if len(chains.rows) == 0:
         return PlanarGraph.empty()
-    graph = prune(contract(_pixel_graph(chains, ridge), 2.0), 3.0, maps)
-    graph = unbridge(graph, ridge.value, maps)
-    graph = split_bends(open_tips(graph, ridge.value, 2.0))
-    graph = even(resolve(graph, ridge.value, 2.0))
-    graph = bridge(place_ends(graph, ridge.value), ridge.value, pen_width)
+    graph, value = _pixel_graph(chains, ridge), ridge.value
+    del ridge, chains  # five more maps of the whole page
+    graph = prune(contract(graph, 2.0), 3.0, maps)
+    graph = unbridge(graph, value, maps)
+    graph = split_bends(open_tips(graph, value, 2.0))
+    graph = even(resolve(graph, value, 2.0))
+    graph = bridge(place_ends(graph, value), value, pen_width)
     graph = join(even(smooth(even(graph), round(10 * settings.smoothing))))
-    graph = planarized(graph, ridge.value.shape)
+    graph = planarized(graph, value.shape)
     # A curve that was continued must not leave the page.
-    page = np.array(ridge.value.shape[::-1], np.float32)
+    page = np.array(value.shape[::-1], np.float32)
     return replace(
         graph, vertices=np.clip(graph.vertices, 0, page), points=np.clip(graph.points, 0, page)
     )
