@@ -13,7 +13,6 @@ import numpy as np
 
 from ..values import PlanarGraph
 from .nearby import near_pairs
-from .ridge import CLEAR, PEAK
 from .sampling import sample
 from .topology import lengths
 
@@ -50,8 +49,9 @@ def bridge(graph: PlanarGraph, value: Array, pen_width: float) -> PlanarGraph:
     facing = -(outward[a] * outward[b]).sum(1)
     shorter = np.minimum(*(lengths(graph)[free[v] >> 1] for v in (a, b)))
     fits = (facing > STRAIGHT) & (ahead > 0) & (aside < ASIDE * gap + 0.5)
-    # What is bright in the middle is another line.
-    fits &= sample(value, (tips[a] + tips[b]) / 2) < CLEAR * PEAK
+    # What is brighter in the middle than at the ends is another line.
+    light = sample(value, tips)
+    fits &= sample(value, (tips[a] + tips[b]) / 2) < np.minimum(light[a], light[b])
     fits &= (gap < reach) & (gap < 2 * shorter + LEAST)
     a, b, cost = a[fits], b[fits], (gap + 2 * aside)[fits]
     best = _mutual(a, b, cost, len(free))

@@ -178,8 +178,10 @@ def test_dots_are_not_lost(length: float) -> None:
 
 
 @pytest.mark.parametrize("angle", [0.0, 33.0, 77.0])
-def test_a_small_gap_in_a_line_is_bridged(angle: float) -> None:
-    graph = graph_of(ray(angle, -40, -1.9), ray(angle, 2.0, 40))
+@pytest.mark.parametrize("gap", [2.6, 3.2, 3.9])
+def test_a_small_gap_in_a_line_is_bridged(angle: float, gap: float) -> None:
+    ridge = cv2.GaussianBlur(drawn(ray(angle, -40, -gap / 2), ray(angle, gap / 2, 40)), (0, 0), 0.5)
+    graph = build_graph(LineMaps(np.minimum(1.5 * ridge, 1)), 2.0, Settings())
     assert graph.branch_count == 1
     assert distance_to(ray(angle, -40, 40), graph.points).max() < 0.3
 
