@@ -1,7 +1,8 @@
-"""No two branches cross but in a vertex: the last step makes the graph planar.
+"""Branches cross in vertices only: the last step, which makes the graph planar but for a few.
 
 Every blob is resolved on its own, so the curves through two blobs a few pixels apart may cross each
-other, and smoothing may push one line over its neighbour. Each such crossing becomes a vertex.
+other, and smoothing may push one line over its neighbour. Each such crossing becomes a vertex,
+unless it lies beside one that both branches share.
 """
 
 from __future__ import annotations

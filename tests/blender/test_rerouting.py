@@ -46,6 +46,22 @@ def change(part, obj, how, frame=1):
     return rerouting.change(obj.data, frame, key, how)
 
 
+def check_rerouted(part, obj, placement, wanted):
+    """Reroute junctions {index: pairs}; the strokes must be the engine's. Returns them."""
+
+    def reroute(d):
+        for index, pairs in wanted.items():
+            d = d.reroute(index, pairs)
+        return d
+
+    change(part, obj, reroute)
+    found, strokes = strokes_in(part, obj, placement), drawing_of(part, obj).strokes
+    assert len(found) == len(strokes)
+    for stroke in strokes:
+        assert min(apart(points, stroke, closed) for points, closed in found) < 1.5
+    return found
+
+
 def drawing_of(part, obj, frame=1):
     state = part("operators.state")
     return state.load(obj.data, state.keys_at(obj.data, frame)[0]).drawing
@@ -120,17 +136,7 @@ def test_strokes_that_run_the_other_way_are_found_again(bpy, part, touched):
     whole = {j.index: j.pairs for j in drawing.junctions}
     for pairs in ({0: (), 2: ()}, whole, {1: (), 4: ()}, whole, {3: (), 0: ()}):
         part("operators.state")._decoded.clear()
-
-        def reroute(d, pairs=pairs):
-            for junction, joined in pairs.items():
-                d = d.reroute(junction, joined)
-            return d
-
-        change(part, obj, reroute)
-        found, strokes = strokes_in(part, obj, placement), drawing_of(part, obj).strokes
-        assert len(found) == len(strokes)
-        for stroke in strokes:
-            assert min(apart(points, stroke, closed) for points, closed in found) < 1.5
+        check_rerouted(part, obj, placement, pairs)
 
 
 @pytest.mark.parametrize("forget", [False, True])
@@ -153,17 +159,7 @@ def test_closed_strokes_that_start_elsewhere_are_found_again(bpy, part, seed, to
         junction = drawing.junctions[random.integers(len(drawing.junctions))]
         pairs = junction.alternatives[random.integers(len(junction.alternatives))].pairs
         wanted = whole if number % 3 == 2 else {junction.index: pairs}
-
-        def reroute(d, wanted=wanted):
-            for index, joined in wanted.items():
-                d = d.reroute(index, joined)
-            return d
-
-        change(part, obj, reroute)
-        found, strokes = strokes_in(part, obj, placement), drawing_of(part, obj).strokes
-        assert len(found) == len(strokes)
-        for stroke in strokes:
-            assert min(apart(points, stroke, closed) for points, closed in found) < 1.5
+        found = check_rerouted(part, obj, placement, wanted)
         if wanted is whole and not touched:  # even the starting points are the old ones
             for points, closed in before:
                 assert any(c == closed and same_points(p, points) for p, c in found)
