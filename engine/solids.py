@@ -12,6 +12,7 @@ import cv2
 import numpy as np
 
 from . import distance
+from .sampling import sample
 from .settings import Settings
 from .values import Array, Scan
 
@@ -93,19 +94,19 @@ def _outlines(area: Array, soft: Array) -> list[Fill]:
 
 def _on_the_edge(contours: list[Array], soft: Array) -> list[Array | None]:
     """Move rings of border pixels to where the ink is half dark, and smooth them."""
-    every = np.concatenate(contours).astype(np.float32)
+    every = np.concatenate(contours).astype(np.float32) + np.float32(0.5)
     slope = np.stack(
         [cv2.Sobel(soft, cv2.CV_32F, *axis, scale=1 / 8) for axis in ((1, 0), (0, 1))], -1
     )
     place = every
     for _ in range(3):
-        value = cv2.remap(soft, place[None], None, cv2.INTER_LINEAR)[0]
-        normal = cv2.remap(slope, place[None], None, cv2.INTER_LINEAR)[0]
+        value = sample(soft, place, cv2.BORDER_CONSTANT)
+        normal = sample(slope, place, cv2.BORDER_CONSTANT)
         steep = np.maximum((normal**2).sum(1), 0.03**2)
         step = ((0.5 - value) / steep)[:, None] * normal
         place = np.clip(place + np.clip(step, -0.7, 0.7), every - 1.2, every + 1.2)
     starts = np.cumsum([0, *(len(c) for c in contours)])
-    return [_smooth(place[a:b] + 0.5) for a, b in pairwise(starts)]
+    return [_smooth(place[a:b]) for a, b in pairwise(starts)]
 
 
 def _smooth(ring: Array) -> Array | None:

@@ -11,8 +11,8 @@ from __future__ import annotations
 import cv2
 import numpy as np
 
+from ..sampling import sample
 from ..values import LineMaps, PlanarGraph
-from .sampling import sample
 from .topology import join, lengths, select
 
 Array = np.ndarray

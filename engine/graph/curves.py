@@ -14,8 +14,8 @@ from itertools import combinations
 
 import numpy as np
 
+from ..sampling import sample
 from .halves import Halves, direction
-from .sampling import sample
 
 Array = np.ndarray
 

@@ -10,8 +10,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from ..sampling import sample
 from ..values import PlanarGraph
-from .sampling import sample
 
 Array = np.ndarray
 

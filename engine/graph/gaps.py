@@ -11,9 +11,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from ..sampling import sample
 from ..values import PlanarGraph
 from .nearby import near_pairs
-from .sampling import sample
 from .topology import lengths
 
 Array = np.ndarray

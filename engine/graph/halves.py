@@ -12,8 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..sampling import sample
 from ..values import PlanarGraph
-from .sampling import sample
 
 Array = np.ndarray
 

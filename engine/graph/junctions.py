@@ -12,11 +12,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..sampling import sample
 from ..values import PlanarGraph
 from .blobs import find_blobs
 from .curves import SAMPLES, Continuations, best_pairing, extend, pairs_within
 from .halves import Halves, read_halves
-from .sampling import sample
 from .topology import connected, join
 from .twins import told_apart
 

@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from ..sampling import sample
 from ..values import LineMaps, PlanarGraph, Scan
-from .sampling import sample
 
 Array = np.ndarray
 

@@ -13,9 +13,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ..sampling import sample
 from .curves import FADE, SAMPLES, pairs_within
 from .halves import Halves
-from .sampling import sample
 
 Array = np.ndarray
 

@@ -99,3 +99,11 @@ def test_an_area_over_the_border_of_the_page():
     _, fills = split_solids(scan_of(disc(0, 150, 60)), SETTINGS)
     ((ring,),) = fills
     assert cv2.contourArea(ring) == pytest.approx(np.pi * 60**2 / 2, rel=0.03)
+
+
+def test_areas_with_a_very_long_border():
+    """More border pixels than OpenCV samples in one row (32,767)."""
+    teeth = [bar(30 + 30 * k, 10, 30 + 30 * k, 1990, 22) for k in range(12)]
+    _, fills = split_solids(scan_of(*teeth, size=(400, 2000)), SETTINGS)
+    assert len(fills) == 12
+    assert all(cv2.contourArea(fill[0]) == pytest.approx(22 * 1980, rel=0.02) for fill in fills)

@@ -10,10 +10,10 @@ Array = np.ndarray
 _COLUMNS = 16384  # remap takes at most 32767 columns, so long lists are folded
 
 
-def sample(image: Array, points: Array) -> Array:
+def sample(image: Array, points: Array, beyond: int = cv2.BORDER_REPLICATE) -> Array:
     """Bilinear values of an image (H, W) or (H, W, C) at points (..., 2) in px, float32 or uint8.
 
-    Beyond the border the image goes on as its outermost pixels.
+    Beyond the border the image goes on as its outermost pixels, or as OpenCV's border mode says.
     """
     shape = points.shape[:-1]
     flat = points.reshape(-1, 2).astype(np.float32) - np.float32(0.5)
@@ -28,6 +28,6 @@ def sample(image: Array, points: Array) -> Array:
         padded.reshape(rows, -1, 2),
         None,
         cv2.INTER_LINEAR,
-        borderMode=cv2.BORDER_REPLICATE,
+        borderMode=beyond,
     )
     return values.reshape(-1, *image.shape[2:])[:count].reshape(*shape, *image.shape[2:])
