@@ -31,6 +31,7 @@ from involute.training.routing.restore import restored
 from involute.training.routing.traced import graph_of, look_ideal, look_scan, save
 from involute.training.routing.traced import load as load_traced
 from involute.training.routing.train import run, train
+from involute.training.routing.widen import widened
 
 seeds = st.integers(0, 2**32 - 1)
 
@@ -218,6 +219,18 @@ def test_shipped_weights_can_be_trained_on(tmp_path: Path) -> None:
         torch.testing.assert_close(weight, model.state_dict()[name], atol=0, rtol=0)
 
 
+def test_a_wider_network_starts_with_the_same_scores() -> None:
+    torch.manual_seed(4)
+    model = RoutingNet(width=16, edge=8, layers=2).eval()
+    for weight in model.parameters():
+        torch.nn.init.normal_(weight, std=0.3)
+    wide = widened(model).eval()
+    assert wide.config["width"] == 32
+    batch = encoded(true_page(net(np.random.default_rng(4))), {}, 8)
+    scores, again = run(model, batch, "cpu"), run(wide, batch, "cpu")
+    torch.testing.assert_close(again, scores, atol=2e-3, rtol=1e-3)
+
+
 def test_batches_join_pages_without_mixing_them() -> None:
     pages = [true_page(CROSS), true_page(net(np.random.default_rng(4)))]
     parts = [encoded(page, {}, 8) for page in pages]
@@ -233,7 +246,7 @@ def test_what_the_engine_runs_is_what_was_trained(drawings: Path, tmp_path: Path
     arguments = Namespace(
         data=drawings, out=tmp_path, steps=3, junctions=40, rate=1e-3, loss="exact", width=64,
         every=2, pages=3, minutes=10.0, seed=1, device="cpu", traced=[], traced_held_out=None,
-        traced_share=0.0, start=None,
+        traced_share=0.0, start=None, dropout=0.1, workers=0,
     )  # fmt: skip
     train(arguments)
     arguments.steps = 4

@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 import numpy as np
+import torch
 from involute.engine.routing.encoding import Encoding, encode
+from torch.utils.data import DataLoader, IterableDataset, get_worker_info
 
 from .augment import Page, augmented, random_fixed
 from .pages import Library, loosened
 from .planar import graph_from_strokes
+from .traced import load
 
 Array = np.ndarray
 
@@ -63,7 +68,11 @@ class Bank:
     """
 
     def __init__(
-        self, library: Library, seed: int, traced: list[Page] | None = None, share: float = 0.0
+        self,
+        library: Library,
+        seed: int | tuple[int, ...],
+        traced: list[Page] | None = None,
+        share: float = 0.0,
     ) -> None:
         self.library, self.traced = library, traced or []
         self.share = share if self.traced else 0.0
@@ -96,6 +105,44 @@ class Bank:
                 parts.append(part)
                 count += len(part.mask)
         return joined(parts)
+
+
+@dataclass(frozen=True)
+class Batches(IterableDataset):
+    """An endless stream of `Batch`es of about so many junctions; every worker has its own bank.
+
+    traced: files by `traced`, from which `share` of the pages come.
+    """
+
+    data: Path
+    traced: tuple[Path, ...]
+    share: float
+    junctions: int
+    seed: int
+
+    def __iter__(self) -> Iterator[Batch]:
+        worker = get_worker_info()
+        if worker:
+            torch.set_num_threads(1)
+        traced = [page for file in self.traced for page in load(file)]
+        seed = (self.seed, worker.id) if worker else self.seed
+        bank = Bank(Library.load(self.data, held_out=False), seed, traced, self.share)
+        step = 0
+        while True:
+            # Junctions of more than six are rare: a wider table is only now and then worth it.
+            yield bank.batch(self.junctions, 8 if step % 5 == 0 else 6)
+            step += 1
+
+    def loader(self, workers: int) -> DataLoader:
+        """Batches made by `workers` processes (0 = in this one)."""
+        ahead = 6 if workers else None
+        return DataLoader(
+            self, batch_size=None, num_workers=workers, prefetch_factor=ahead, collate_fn=_as_it_is
+        )
+
+
+def _as_it_is(batch: Batch) -> Batch:
+    return batch
 
 
 def encoded(page: Page, fixed: dict, slots: int) -> Batch:

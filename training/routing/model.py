@@ -23,9 +23,12 @@ class RoutingNet(nn.Module):
 
     Args:
         width: size of a token; edge: size of a pair; heads, layers: of the transformer.
+        dropout: share of what a layer adds that is left out at random, in training only.
     """
 
-    def __init__(self, width: int = 64, edge: int = 32, heads: int = 4, layers: int = 4) -> None:
+    def __init__(
+        self, width: int = 64, edge: int = 32, heads: int = 4, layers: int = 4, dropout: float = 0.0
+    ) -> None:
         super().__init__()
         self.config = {"width": width, "edge": edge, "heads": heads, "layers": layers}
         self.token = nn.Sequential(nn.Linear(TOKEN_SIZE, width), nn.ReLU(), nn.Linear(width, width))
@@ -34,7 +37,7 @@ class RoutingNet(nn.Module):
         self.pair_to = nn.Linear(width, width, bias=False)
         self.pair_out = nn.Linear(width, edge)
         self.alone = nn.Parameter(torch.zeros(1, width))
-        self.layers = nn.ModuleList(_Layer(width, edge, heads) for _ in range(layers))
+        self.layers = nn.ModuleList(_Layer(width, edge, heads, dropout) for _ in range(layers))
         self.last = nn.LayerNorm(width)
         self.head_pair = nn.Linear(edge, width)
         self.head_sum = nn.Linear(width, width, bias=False)
@@ -89,9 +92,10 @@ def _page_mean(x: Tensor, mask: Tensor, page: Tensor | None) -> Tensor:
 class _Layer(nn.Module):
     """Attention inside each junction, then a word with the other end of the branch."""
 
-    def __init__(self, width: int, edge: int, heads: int) -> None:
+    def __init__(self, width: int, edge: int, heads: int, dropout: float) -> None:
         super().__init__()
         self.heads, self.width = heads, width
+        self.drop = nn.Dropout(dropout)
         self.norm = nn.LayerNorm(width)
         self.qkv = nn.Linear(width, 3 * width)
         self.bias = nn.Linear(edge, heads)
@@ -112,7 +116,7 @@ class _Layer(nn.Module):
         attention = torch.softmax(logits, dim=-1)
         heard = (attention @ v).permute(0, 2, 1, 3).reshape(j, d, width)
         seen = (attention.permute(0, 2, 1, 3) @ e).reshape(j, d, -1)
-        x = x + self.out(torch.cat([heard, seen], dim=-1))
+        x = x + self.drop(self.out(torch.cat([heard, seen], dim=-1)))
         y = self.norm2(x)
         other = torch.cat([y.reshape(j * d, width), alone], dim=0)[sibling].reshape(j, d, width)
-        return x + self.mix_out(self.mix(torch.cat([y, other], dim=-1)))
+        return x + self.drop(self.mix_out(self.mix(torch.cat([y, other], dim=-1))))

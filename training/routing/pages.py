@@ -121,7 +121,7 @@ def loosened(rng: np.random.Generator, page: list[Array]) -> list[Array]:
     """A page as a looser hand draws it: some strokes missing, ends too short or too long."""
     if rng.random() < 0.5:
         return page
-    drop, reach = rng.uniform(0, 0.15), rng.uniform(0.3, 3.0)
+    drop, reach = rng.uniform(0, 0.5 if rng.random() < 0.3 else 0.15), rng.uniform(0.3, 3.0)
     kept = [line for line in page if rng.random() >= drop]
     return [_with_ends(line, *rng.normal(0.3, reach, 2)) for line in kept] or page
 

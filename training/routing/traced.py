@@ -2,13 +2,16 @@
 
 `python -m training.routing.traced --data DIR --out FILE --pages N` draws pages of true strokes,
 traces them and writes the graphs with their routing: after the rasterised set of "Stroke
-Vectorization via Involution Prediction" (routing data), but from real drawings as well.
+Vectorization via Involution Prediction" (routing data), but from real drawings as well. Started
+again with the same FILE, it goes on where it stopped.
 """
 
 from __future__ import annotations
 
 import argparse
+from concurrent.futures import ProcessPoolExecutor
 from itertools import pairwise
+from multiprocessing import get_context
 from pathlib import Path
 
 import cv2
@@ -31,7 +34,8 @@ Array = np.ndarray
 _MARGIN = 12.0  # px around the drawing
 _LARGEST = 1000.0  # px; a page is cut to this, so that tracing stays quick
 _WIDEST = 9.0  # px; wider pens are scanned at a lower resolution
-_KINDS = (0.25, 0.25, 0.5)  # shares of ideal, inked and scanned pages
+_SAVED = 100  # tries between two writings of the file
+_KINDS = (0.15, 0.25, 0.6)  # shares of ideal, inked and scanned pages
 _MOST_FALSE = 0.3  # of the length of all branches: more than this that nobody drew is no drawing
 
 
@@ -39,29 +43,45 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--data", type=Path, required=True, help="folder of SOURCE.npz drawings")
     parser.add_argument("--out", type=Path, required=True)
-    parser.add_argument("--pages", type=int, default=1500)
+    parser.add_argument("--pages", type=int, default=1500, help="one in ten comes to nothing")
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--jobs", type=int, default=1, help="parallel processes")
     parser.add_argument("--provider", default="auto", help="centerline: network or classical")
     parser.add_argument("--held-out", action="store_true", help="from the validation drawings")
     args = parser.parse_args()
-    library = Library.load(args.data, args.held_out)
-    settings = Settings(provider=args.provider)
-    rng = np.random.default_rng(args.seed)
-    pages: list[Page] = []
-    while len(pages) < args.pages:
-        page = traced_page(rng, library, settings)
-        if page:
-            pages.append(page)
-    save(args.out, pages)
+    tried, pages = (
+        (int(np.load(args.out)["tried"]), load(args.out)) if args.out.exists() else (0, [])
+    )
+    with ProcessPoolExecutor(args.jobs, get_context("spawn"), _prepare, (args,)) as pool:
+        while tried < args.pages:
+            numbers = range(tried, min(tried + _SAVED, args.pages))
+            pages += [page for page in pool.map(_numbered_page, numbers) if page]
+            tried = numbers.stop
+            save(args.out, pages, tried)
+            print(f"{len(pages)} pages of {tried} tries", flush=True)
+
+
+def _prepare(args: argparse.Namespace) -> None:
+    """What every page needs, once in each process."""
+    global _args, _library
+    cv2.setNumThreads(1)
+    _args, _library = args, Library.load(args.data, args.held_out)
+
+
+def _numbered_page(number: int) -> Page | None:
+    rng = np.random.default_rng((_args.seed, number))
+    return traced_page(rng, _library, Settings(provider=_args.provider))
 
 
 def traced_page(rng: np.random.Generator, library: Library, settings: Settings) -> Page | None:
     """One random page, traced from an ideal centerline, from clean ink or from a scanned page.
 
-    None when there is no junction, or the tracer saw so much that nobody drew that it is no
-    example of routing.
+    None when nothing fits on the page, when there is no junction, or when the tracer saw so much
+    that nobody drew that it is no example of routing.
     """
     strokes = _on_canvas(loosened(rng, library.page(rng)))
+    if not strokes:
+        return None
     look = (look_ideal, look_ink, look_scan)[int(rng.choice(3, p=_KINDS))]
     maps, scan = look(rng, strokes, settings)
     page = labelled(graph_of(maps, scan, settings), [line / scan.scale for line in strokes])
@@ -149,8 +169,8 @@ def _centerline(scan: Scan, settings: Settings) -> tuple[LineMaps, Scan]:
     return provider_for(settings)(scan, lambda fraction: None), scan
 
 
-def save(path: Path, pages: list[Page]) -> None:
-    """Write traced pages as one compressed file."""
+def save(path: Path, pages: list[Page], tried: int = 0) -> None:
+    """Write traced pages as one compressed file, and how many tries they took."""
     arrays: dict[str, Array] = {}
     for name in ("vertices", "points", "offsets", "ends"):
         arrays[name] = np.concatenate([getattr(page.graph, name) for page in pages])
@@ -159,7 +179,9 @@ def save(path: Path, pages: list[Page]) -> None:
     for name in ("partner", "stroke"):
         arrays[name] = np.concatenate([getattr(page, name) for page in pages])
     sizes = [(len(p.graph.vertices), len(p.graph.points), p.graph.branch_count) for p in pages]
-    np.savez_compressed(path, sizes=np.array(sizes), **arrays)
+    part = path.with_suffix(".part.npz")  # a run that is stopped leaves the last whole file
+    np.savez_compressed(part, sizes=np.array(sizes), tried=np.array(tried), **arrays)
+    part.replace(path)
 
 
 def _or_nan(page: Page, name: str) -> Array:

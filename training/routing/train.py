@@ -10,6 +10,7 @@ import argparse
 import json
 import math
 import time
+from copy import deepcopy
 from pathlib import Path
 
 import numpy as np
@@ -17,12 +18,13 @@ import torch
 
 from . import likelihood
 from .augment import augmented
-from .data import Bank, Batch, encoded, joined, true_page
+from .data import Batch, Batches, encoded, joined, true_page
 from .judge import Verdict, judge
 from .model import RoutingNet
 from .pages import Library
 from .restore import restored
 from .traced import load
+from .widen import widened
 
 
 def main() -> None:
@@ -33,7 +35,9 @@ def main() -> None:
     parser.add_argument("--junctions", type=int, default=600, help="junctions a step")
     parser.add_argument("--rate", type=float, default=2e-3)
     parser.add_argument("--loss", choices=("exact", "sinkhorn"), default="exact")
-    parser.add_argument("--width", type=int, default=64)
+    parser.add_argument("--width", type=int, default=64, help="may be twice that of --start")
+    parser.add_argument("--dropout", type=float, default=0.0)
+    parser.add_argument("--workers", type=int, default=0, help="processes that make the batches")
     parser.add_argument("--every", type=int, default=500, help="steps between evaluations")
     parser.add_argument("--pages", type=int, default=40, help="pages of an evaluation")
     parser.add_argument("--minutes", type=float, default=1e9, help="stop after so long")
@@ -50,8 +54,8 @@ def train(args: argparse.Namespace) -> None:
     """Run the training that the arguments describe."""
     args.out.mkdir(parents=True, exist_ok=True)
     torch.manual_seed(args.seed)
-    net = RoutingNet(args.width).to(args.device)
-    mean = RoutingNet(args.width).to(args.device)
+    net = _first(args).to(args.device)
+    mean = deepcopy(net).eval()
     optimizer = torch.optim.AdamW(net.parameters(), lr=args.rate, weight_decay=0.01)
     checkpoint, first, before = args.out / "checkpoint.pt", 0, 0.0
     if checkpoint.exists():
@@ -60,12 +64,10 @@ def train(args: argparse.Namespace) -> None:
         mean.load_state_dict(saved["mean"])
         optimizer.load_state_dict(saved["optimizer"])
         first, before = saved["step"], saved["minutes"]
-    elif args.start:
-        net.load_state_dict(_weights(args.start))
-        mean.load_state_dict(net.state_dict())
-    traced = [page for file in args.traced for page in load(file)]
-    library = Library.load(args.data, held_out=False)
-    bank = Bank(library, args.seed * 1000 + first, traced, args.traced_share)
+    traced = tuple(args.traced)
+    seed = args.seed * 1_000_000 + first
+    stream = Batches(args.data, traced, args.traced_share, args.junctions, seed)
+    batches = iter(stream.loader(args.workers))
     held_out = validation(Library.load(args.data, True), args.traced_held_out, args.pages)
     loss_of = getattr(likelihood, args.loss)
     started, running, step, done = time.monotonic(), [], first, 0.0
@@ -74,8 +76,7 @@ def train(args: argparse.Namespace) -> None:
         done = max((step + 1) / args.steps, minutes / args.minutes)
         for group in optimizer.param_groups:
             group["lr"] = args.rate * learning_rate(step, done)
-        # Junctions of more than six are rare: a wider table is only now and then worth its time.
-        batch = bank.batch(args.junctions, 8 if step % 5 == 0 else 6)
+        batch = next(batches)
         scores = run(net, batch, args.device)
         mask, truth, asked = (
             torch.from_numpy(a).to(args.device) for a in (batch.mask, batch.truth, batch.asked)
@@ -104,10 +105,21 @@ def train(args: argparse.Namespace) -> None:
             torch.save(state, checkpoint)
 
 
-def _weights(file: Path) -> dict[str, torch.Tensor]:
-    if file.suffix == ".onnx":
-        return restored(file).state_dict()
-    return torch.load(file, map_location="cpu")["mean"]
+def _first(args: argparse.Namespace) -> RoutingNet:
+    """The network to start with: new, or that of --start, made wider where it is half as wide."""
+    wanted = RoutingNet(args.width, args.width // 2, dropout=args.dropout)
+    if not args.start:
+        return wanted
+    if args.start.suffix == ".onnx":
+        given = restored(args.start)
+    else:
+        saved = torch.load(args.start, map_location="cpu")
+        given = RoutingNet(**saved["config"])
+        given.load_state_dict(saved["mean"])
+    if 2 * given.config["width"] == args.width:
+        given = widened(given)
+    wanted.load_state_dict(given.state_dict())
+    return wanted
 
 
 def learning_rate(step: int, done: float) -> float:
