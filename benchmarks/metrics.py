@@ -161,7 +161,7 @@ def evaluate(predicted: Sequence[Array], truth: Sequence[Array], *, failed: bool
         true_strokes=len(true),
         length=float(pred.length.sum()),
         true_length=float(true.length.sum()),
-        chamfer=_chamfer(pred, true),
+        chamfer=chamfer(pred, true),
         crossings=len(found),
         true_crossings=len(actual),
         crossings_found=tuple(_matched(actual, found, r) for r in CROSSING_RADII),
@@ -291,7 +291,8 @@ def _arc_length(line: Array) -> Array:
     return np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(line, axis=0).T))])
 
 
-def _chamfer(pred: Strokes, true: Strokes) -> float:
+def chamfer(pred: Strokes, true: Strokes) -> float:
+    """Mean distance from the samples of one to those of the other, both directions averaged, px."""
     if pred.tree is None or true.tree is None:
         return float("inf")
     there = true.tree.query(pred.samples)[0].mean()

@@ -60,11 +60,11 @@ def run(
     if jobs == 1:
         yield from map(_judge, work)
         return
-    with ProcessPoolExecutor(jobs, get_context("spawn"), _one_thread) as pool:
+    with ProcessPoolExecutor(jobs, get_context("spawn"), one_thread) as pool:
         yield from pool.map(_judge, work)
 
 
-def _one_thread() -> None:
+def one_thread() -> None:
     """One thread a process: the processes are the parallelism."""
     import cv2
 

@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from benchmarks.metrics import Strokes, crossings, evaluate, read_svg, scaled, summarize
+from benchmarks.offset import shift
 
 BAR = np.array([[100.0, 200.0], [300.0, 200.0]])
 POST = np.array([[200.0, 100.0], [200.0, 300.0]])
@@ -154,3 +155,11 @@ def test_every_drawing_is_its_own_truth(strokes):
     turned = evaluate(upside_down, upside_down)
     assert turned.true_crossings == score.true_crossings
     assert turned.true_length == pytest.approx(score.true_length)
+
+
+def test_a_common_shift_is_found():
+    t = np.linspace(0, 1, 400)[:, None]
+    truth = [np.hstack([100 + 300 * t, 50 + 90 * np.sin(5 * t)]), np.hstack([20 * t, 700 * t])]
+    pairs = [(Strokes([line + np.array([0.3, -0.2])]), Strokes([line])) for line in truth]
+    np.testing.assert_allclose(shift(pairs), (0.3, -0.2), atol=0.02)
+    assert shift([(Strokes([]), Strokes(truth))]) == pytest.approx(0)
