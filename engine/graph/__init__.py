@@ -12,6 +12,7 @@
     ends        free ends where the line ends
     gaps        lines go on where the pen broke off
     smoothing   even, smooth points
+    undrawn     what most probably nobody drew goes
     planar      a vertex wherever two branches still cross
                                                                     all of that is build_graph
     measure     width, darkness and colour of the ink along every branch
@@ -43,6 +44,7 @@ from .skeleton import Chains, thin, trace
 from .smoothing import even, smooth
 from .tips import open_tips, split_bends
 from .topology import contract, join, select
+from .undrawn import drop_undrawn
 
 
 def build_graph(maps: LineMaps, pen_width: float, settings: Settings) -> PlanarGraph:
@@ -56,10 +58,24 @@ def build_graph(maps: LineMaps, pen_width: float, settings: Settings) -> PlanarG
     Returns:
         A valid graph for any input; empty for a blank page.
     """
+    graph, value = all_lines(maps, pen_width, settings)
+    graph = planarized(drop_undrawn(graph, value, maps, pen_width), value.shape)
+    # A curve that was continued must not leave the page.
+    page = np.array(value.shape[::-1], np.float32)
+    return replace(
+        graph, vertices=np.clip(graph.vertices, 0, page), points=np.clip(graph.points, 0, page)
+    )
+
+
+def all_lines(
+    maps: LineMaps, pen_width: float, settings: Settings
+) -> tuple[PlanarGraph, np.ndarray]:
+    """The graph with all that looks like a line, drawn or not; and the (H, W) smoothed centerline
+    map that it follows."""
     ridge = Ridge.of(maps.centerline)
     chains = trace(thin(ridge.mask()))
     if len(chains.rows) == 0:
-        return PlanarGraph.empty()
+        return PlanarGraph.empty(), ridge.value
     graph, value = _pixel_graph(chains, ridge), ridge.value
     del ridge, chains  # five more maps of the whole page
     graph = prune(contract(graph, 2.0), 3.0, maps)
@@ -67,13 +83,7 @@ def build_graph(maps: LineMaps, pen_width: float, settings: Settings) -> PlanarG
     graph = split_bends(open_tips(graph, value, 2.0))
     graph = even(resolve(graph, value, 2.0))
     graph = bridge(place_ends(graph, value), value, pen_width)
-    graph = join(even(smooth(even(graph), round(10 * settings.smoothing))))
-    graph = planarized(graph, value.shape)
-    # A curve that was continued must not leave the page.
-    page = np.array(value.shape[::-1], np.float32)
-    return replace(
-        graph, vertices=np.clip(graph.vertices, 0, page), points=np.clip(graph.points, 0, page)
-    )
+    return join(even(smooth(even(graph), round(10 * settings.smoothing)))), value
 
 
 def _pixel_graph(chains: Chains, ridge: Ridge) -> PlanarGraph:
@@ -107,4 +117,4 @@ def _pixel_graph(chains: Chains, ridge: Ridge) -> PlanarGraph:
     return select(graph, np.concatenate([keep, np.ones(len(dots), bool)]))
 
 
-__all__ = ["build_graph", "measure", "sweep", "without_pencil"]
+__all__ = ["all_lines", "build_graph", "measure", "sweep", "without_pencil"]

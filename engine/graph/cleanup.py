@@ -32,7 +32,7 @@ def prune(graph: PlanarGraph, shortest: float, maps: LineMaps) -> PlanarGraph:
         maps: their endpoints halve the limit where they see the tip and double it where they don't;
             their junctions raise it where they don't see the fork. Either may be None.
     """
-    tips, forks = _seen_near(maps.endpoints, 7), _seen_near(maps.junctions, 5)
+    tips, forks = seen_near(maps.endpoints, 7), seen_near(maps.junctions, 5)
     for _ in range(2):
         vertex, degree = graph.half_vertex, graph.degrees
         long = np.repeat(lengths(graph), 2)
@@ -59,7 +59,7 @@ def unbridge(graph: PlanarGraph, value: Array, maps: LineMaps) -> PlanarGraph:
     """
     if maps.junctions is None:
         return graph
-    unseen = sample(_seen_near(maps.junctions, 5), graph.vertices) < _SEEN
+    unseen = sample(seen_near(maps.junctions, 5), graph.vertices) < _SEEN
     unseen &= graph.degrees == 3
     short = (lengths(graph) < _RUNG) & (graph.ends[:, 0] != graph.ends[:, 1])
     dimmest = np.minimum.reduceat(sample(value, graph.points), graph.offsets[:-1])
@@ -77,6 +77,6 @@ def _rank(vertex: Array, degree: Array, worth: Array) -> Array:
     return rank
 
 
-def _seen_near(heat: Array | None, size: int) -> Array | None:
+def seen_near(heat: Array | None, size: int) -> Array | None:
     """The brightest value of a map within a square of `size` px."""
     return None if heat is None else cv2.dilate(heat, np.ones((size, size), np.uint8))

@@ -36,7 +36,7 @@ _LARGEST = 1000.0  # px; a page is cut to this, so that tracing stays quick
 _WIDEST = 9.0  # px; wider pens are scanned at a lower resolution
 _SAVED = 500  # tries between two writings of the file
 _KINDS = (0.15, 0.25, 0.6)  # shares of ideal, inked and scanned pages
-_MOST_FALSE = 0.3  # of the length of all branches: more than this that nobody drew is no drawing
+MOST_FALSE = 0.3  # of the length of all branches: more than this that nobody drew is no drawing
 
 
 def main() -> None:
@@ -79,13 +79,13 @@ def traced_page(rng: np.random.Generator, library: Library, settings: Settings) 
     None when nothing fits on the page, when there is no junction, or when the tracer saw so much
     that nobody drew that it is no example of routing.
     """
-    strokes = _on_canvas(loosened(rng, library.page(rng)))
+    strokes = on_canvas(loosened(rng, library.page(rng)))
     if not strokes:
         return None
     look = (look_ideal, look_ink, look_scan)[int(rng.choice(3, p=_KINDS))]
     maps, scan = look(rng, strokes, settings)
     page = labelled(graph_of(maps, scan, settings), [line / scan.scale for line in strokes])
-    good = len(page.graph.junctions) and unowned(page) < _MOST_FALSE
+    good = len(page.graph.junctions) and unowned(page) < MOST_FALSE
     return page if good else None
 
 
@@ -95,7 +95,7 @@ def graph_of(maps: LineMaps, scan: Scan, settings: Settings) -> PlanarGraph:
     return sweep(measure(graph, scan, maps), settings) if scan.ink.any() else graph
 
 
-def _on_canvas(strokes: list[Array]) -> list[Array]:
+def on_canvas(strokes: list[Array]) -> list[Array]:
     """Strokes moved to positive coordinates; those that leave the largest page are dropped."""
     low = np.min([line.min(0) for line in strokes], 0) if strokes else np.zeros(2)
     moved = [line - low + _MARGIN for line in strokes]

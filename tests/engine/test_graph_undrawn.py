@@ -1,0 +1,88 @@
+"""What nobody drew goes; what was drawn stays."""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from involute.engine import Settings
+from involute.engine.centerline import provider_for
+from involute.engine.graph import all_lines
+from involute.engine.graph.topology import lengths
+from involute.engine.graph.undrawn import FEATURES, drop_undrawn, features, probability
+from involute.engine.scan import read_scan
+from involute.engine.values import LineMaps, PlanarGraph, Scan
+from involute.training.centerline.media import MEDIA, draw, sample
+
+SETTINGS = Settings()
+SIZE = 320
+
+
+def seen(lines: list[np.ndarray], pen: float = 3.0) -> tuple[LineMaps, float]:
+    """The network's maps of polylines in even ink."""
+    fine = np.zeros((SIZE * 4, SIZE * 4), np.uint8)
+    for line in lines:
+        fixed = np.rint((np.asarray(line, float) * 4 - 0.5) * 16).astype(np.int32)
+        cv2.polylines(fine, [fixed], False, 255, round(4 * pen), cv2.LINE_8, 4)
+    ink = cv2.resize(fine, (SIZE, SIZE), interpolation=cv2.INTER_AREA).astype(np.float32) / 255
+    scan = Scan(ink, None, 1.0, (SIZE, SIZE), pen)
+    return provider_for(SETTINGS)(scan, lambda fraction: None), pen
+
+
+CLEAN = [
+    [(20, 40), (300, 60)], [(60, 20), (80, 300)], [(30, 250), (290, 120)],
+    [(200, 90), (210, 280)], [(240, 200), (280, 200)], [(40, 290), (52, 296)],
+]  # fmt: skip
+
+
+def test_a_clean_drawing_loses_nothing():
+    maps, pen = seen([np.array(line, float) for line in CLEAN])
+    graph, value = all_lines(maps, pen, SETTINGS)
+    assert drop_undrawn(graph, value, maps, pen) is graph
+
+
+def test_crumbs_of_charcoal_go_and_its_lines_stay():
+    """Lines that meet nowhere: every branch beyond one a line is false."""
+    t = np.linspace(0, 1, 60)[:, None]
+    lines = [np.hstack([20 + 280 * t, y + 12 * np.sin(5 * t + y)]) for y in range(40, 300, 60)]
+    before = after = 0
+    for seed in range(3):
+        ink, _ = draw(
+            np.random.default_rng(seed), sample(lines, SIZE), MEDIA["charcoal"], 7.0, SIZE
+        )
+        page = read_scan(((1 - ink) * 255).astype(np.uint8), SETTINGS)
+        maps = provider_for(SETTINGS)(page, lambda fraction: None)
+        graph, value = all_lines(maps, page.pen_width, SETTINGS)
+        left = drop_undrawn(graph, value, maps, page.pen_width)
+        before, after = before + graph.branch_count, after + left.branch_count
+        drawn = np.concatenate(lines) / page.scale
+        away = np.hypot(*np.moveaxis(drawn[:, None] - left.points, -1, 0)).min(1)
+        assert (away < 3).mean() > 0.97
+    assert after <= 0.75 * before
+
+
+def test_without_the_maps_of_a_network_all_stays():
+    maps, pen = seen([np.array(CLEAN[0], float)])
+    graph, value = all_lines(maps, pen, SETTINGS)
+    assert drop_undrawn(graph, value, LineMaps(maps.centerline), pen) is graph
+    empty = PlanarGraph.empty()
+    assert drop_undrawn(empty, value, maps, pen) is empty
+
+
+@settings(max_examples=10, deadline=None)
+@given(st.integers(0, 2**32 - 1))
+def test_every_branch_of_any_maps_has_a_probability(seed: int):
+    rng = np.random.default_rng(seed)
+    noise = [
+        cv2.GaussianBlur(rng.random((90, 110)).astype(np.float32), (0, 0), 1.5) for _ in range(5)
+    ]
+    maps = LineMaps(*((n - n.min()) / np.ptp(n) for n in noise))
+    graph, value = all_lines(maps, 2.0, SETTINGS)
+    rows = features(graph, value, maps, 2.0)
+    assert rows.shape == (graph.branch_count, FEATURES)
+    assert np.isfinite(rows).all()
+    stated = probability(rows)
+    assert ((stated >= 0) & (stated <= 1)).all()
+    left = drop_undrawn(graph, value, maps, 2.0)
+    assert lengths(left).sum() <= lengths(graph).sum() + 1e-3
