@@ -23,7 +23,7 @@ from .topology import join, lengths, select
 Array = np.ndarray
 
 WEIGHTS = Path(__file__).resolve().parent.parent / "weights" / "undrawn.npz"
-SURE = 0.7  # probability from which on a branch goes
+SURE = 0.5  # probability from which on a branch goes
 FEATURES = 11 + 2 * 11  # of a branch: its own, and those of its two ends
 _LOOK = 6  # points of a branch that tell its direction
 _AROUND = 25  # px; side of the square in which junctions are counted
