@@ -40,7 +40,9 @@ def drop_undrawn(graph: PlanarGraph, value: Array, maps: LineMaps, pen_width: fl
         maps: what the centerline provider saw.
         pen_width: typical width of a line, px.
     """
-    if graph.branch_count == 0 or maps.junctions is None or not WEIGHTS.exists():
+    needed = (maps.junctions, maps.endpoints, maps.half_width, maps.solid)
+    unseen = any(seen is None for seen in needed)
+    if graph.branch_count == 0 or unseen or not WEIGHTS.exists():
         return graph
     false = probability(features(graph, value, maps, pen_width)) > SURE
     return join(select(graph, ~false)) if false.any() else graph
