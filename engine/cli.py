@@ -39,7 +39,7 @@ _HELP = {
     "ignore_inks": "inks that are not traced, such as blue or blue,gray",
     "marks": "trace scan borders, punched holes and registration marks too",
     "regions": "fill the closed regions between the lines, in the colour that the page has there",
-    "min_length": "drop loose strokes shorter than this many pen widths",
+    "min_length": "drop strokes shorter than this many pen widths; up to twice that on other lines",
     "smoothing": "0 keeps every wobble, 1 is very smooth",
     "router": "what decides how strokes run through junctions",
     "tolerance": "how far a simplified stroke may stray from the traced line, in px",

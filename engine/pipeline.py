@@ -16,7 +16,7 @@ import numpy as np
 from .centerline import provider_for
 from .drawing import Drawing
 from .errors import Cancelled
-from .graph import build_graph, measure, sweep, without_pencil
+from .graph import build_graph, measure, sweep, trim, without_pencil
 from .registration import set_aside
 from .routing import route
 from .scan import read_scan
@@ -77,6 +77,10 @@ def vectorize(
         graph = sweep(graph, settings)
     with clock("routing"):
         routing = route(graph, settings)
+        trimmed = trim(graph, routing.partner, settings)
+        if trimmed is not graph:
+            graph = measure(trimmed, lines, maps)
+            routing = route(graph, settings)
     with clock("strokes"):
         drawing = Drawing.from_routing(graph, routing, scan, settings, fills)
     return drawing.with_seconds(clock.seconds)

@@ -51,7 +51,8 @@ class Settings:
             and moved to that; see `registration.anchors_of`. Empty = the page stays as it lies.
 
     How clean
-        min_length: strokes shorter than this many pen widths that hang on nothing are dropped.
+        min_length: strokes shorter than this many pen widths that hang on nothing are dropped, and
+            those up to twice as long that hang on other lines.
         smoothing: 0 keeps every wobble, 1 is very smooth.
         router: what pairs the half-branches: "network", "geometric" or "auto".
 

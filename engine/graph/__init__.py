@@ -18,6 +18,7 @@
     measure     width, darkness and colour of the ink along every branch
     ignored     pencil under ink goes, if it is not wanted (without_pencil)
     dust        what is too small or too faint to be a stroke goes (sweep)
+    stubs       once routed: strokes too short to stand out of the lines they hang on go (trim)
 
 All of it works on flat arrays, in NumPy and OpenCV only: fast enough (about 0.3 ms a junction)
 without a compiled helper, which would need a wheel for every Python and platform.
@@ -42,6 +43,7 @@ from .planar import planarized
 from .ridge import Ridge
 from .skeleton import Chains, thin, trace
 from .smoothing import even, smooth
+from .stubs import trim
 from .tips import open_tips, split_bends
 from .topology import contract, join, select
 from .undrawn import drop_undrawn
@@ -117,4 +119,4 @@ def _pixel_graph(chains: Chains, ridge: Ridge) -> PlanarGraph:
     return select(graph, np.concatenate([keep, np.ones(len(dots), bool)]))
 
 
-__all__ = ["all_lines", "build_graph", "measure", "sweep", "without_pencil"]
+__all__ = ["all_lines", "build_graph", "measure", "sweep", "trim", "without_pencil"]
