@@ -8,6 +8,7 @@ branch how probable it is that no stroke made it.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 
@@ -48,9 +49,9 @@ def drop_undrawn(graph: PlanarGraph, value: Array, maps: LineMaps, pen_width: fl
     return join(select(graph, ~false)) if false.any() else graph
 
 
-def probability(rows: Array) -> Array:
-    """(B,) that no stroke made a branch, from its (B, F) features."""
-    net = _net()
+def probability(rows: Array, net: Mapping[str, Array] | None = None) -> Array:
+    """(B,) that no stroke made a branch, from its (B, F) features; net: other weights."""
+    net = net or _net()
     hidden = (rows - net["mean"]) / net["spread"]
     for layer in range(len(net) // 2 - 1):
         hidden = hidden @ net[f"weight{layer}"] + net[f"bias{layer}"]

@@ -19,8 +19,11 @@ import cv2
 import numpy as np
 import torch
 from involute.engine.graph import all_lines
+from involute.engine.graph.topology import lengths
 from involute.engine.graph.undrawn import FEATURES, WEIGHTS, features
 from involute.engine.settings import Settings
+from involute.engine.values import PlanarGraph
+from scipy.spatial import cKDTree
 from torch import nn
 
 from ..routing.labels import labelled, unowned
@@ -30,6 +33,8 @@ from ..routing.traced import MOST_FALSE, look_ink, look_scan, on_canvas
 Array = np.ndarray
 
 _SCANNED = 0.85  # share of the pages; the others are even ink
+_STIPPLED = 0.5  # share of the pages that have dots, too
+_APART, _ON = 9.0, 3.0  # px between a dot and what else is drawn; and between it and its trace
 _PIECE = 50  # pages between two writings of the file
 
 
@@ -84,16 +89,44 @@ def _branches(number: int) -> tuple[Array, Array]:
     """The branches of one page; none when it is no example."""
     rng, settings = np.random.default_rng((_seed, number)), Settings()
     strokes = on_canvas(loosened(rng, _library.page(rng)))
+    dots = _stipple(rng, strokes) if strokes and rng.random() < _STIPPLED else []
     look = look_scan if rng.random() < _SCANNED else look_ink
     if strokes:
-        maps, scan = look(rng, strokes, settings)
+        maps, scan = look(rng, strokes + dots, settings)
         graph, value = all_lines(maps, scan.pen_width, settings)
         if graph.branch_count:
-            page = labelled(graph, [line / scan.scale for line in strokes])
+            page = labelled(graph, [line / scan.scale for line in strokes + dots])
+            false = page.stroke[graph.offsets[:-1]] < 0
+            false &= ~_on_dots(graph, [dot / scan.scale for dot in dots])
             if unowned(page) < MOST_FALSE:
-                rows = features(graph, value, maps, scan.pen_width).astype(np.float32)
-                return rows, page.stroke[graph.offsets[:-1]] < 0
+                return features(graph, value, maps, scan.pen_width).astype(np.float32), false
     return np.zeros((0, FEATURES), np.float32), np.zeros(0, bool)
+
+
+def _stipple(rng: np.random.Generator, strokes: list[Array]) -> list[Array]:
+    """Dots and ticks in a few places between the lines, (2, 2) px each: they are drawn, too."""
+    drawn = np.concatenate(strokes)
+    dots: list[Array] = []
+    for _ in range(int(rng.integers(1, 4))):
+        middle, spread = rng.uniform(drawn.min(0), drawn.max(0)), rng.uniform(20, 90)
+        for place in rng.normal(middle, spread, (int(rng.integers(8, 50)), 2)):
+            apart = np.hypot(*(np.concatenate([drawn, *dots]) - place).T).min()
+            inside = (place > drawn.min(0)).all() and (place < drawn.max(0)).all()
+            if apart > _APART and inside:
+                way = rng.normal(0, 1, 2)
+                way *= rng.uniform(0.3, 2.5) / max(np.hypot(*way), 1e-6)
+                dots.append(np.stack([place - way, place + way]))
+    return dots
+
+
+def _on_dots(graph: PlanarGraph, dots: list[Array]) -> Array:
+    """(B,) bool: small loose pieces that lie on a dot; a dot has no direction to be known by."""
+    loose = (graph.degrees[graph.ends] == 1).all(1) & (lengths(graph) < _APART)
+    if not dots:
+        return np.zeros_like(loose)
+    middle = graph.vertices[graph.ends].mean(1)
+    away = cKDTree(np.array([dot.mean(0) for dot in dots])).query(middle)[0]
+    return loose & (away < _ON)
 
 
 def train(
