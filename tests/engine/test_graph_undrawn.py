@@ -86,3 +86,19 @@ def test_every_branch_of_any_maps_has_a_probability(seed: int):
     assert ((stated >= 0) & (stated <= 1)).all()
     left = drop_undrawn(graph, value, maps, 2.0)
     assert lengths(left).sum() <= lengths(graph).sum() + 1e-3
+
+
+def test_stipple_stays():
+    rng = np.random.default_rng(5)
+    places = [
+        np.array([40 + 24 * i, 40 + 24 * j]) + rng.uniform(-4, 4, 2)
+        for i in range(8)
+        for j in range(8)
+    ]
+    dots = [np.stack([p - (0.7, 0.2), p + (0.7, 0.2)]) for p in places]
+    frame = np.array([[15, 15], [305, 15], [305, 305], [15, 305], [15, 15]], float)
+    maps, pen = seen([frame, *dots])
+    graph, value = all_lines(maps, pen, SETTINGS)
+    loose = (graph.degrees[graph.ends] == 1).all(1).sum()
+    assert loose >= 0.95 * len(dots)
+    assert drop_undrawn(graph, value, maps, pen).branch_count >= graph.branch_count - 1
