@@ -1,1 +1,1 @@
-"""Data, training and export of the two networks; not part of the extension."""
+"""Data, training and export of the networks; not part of the extension."""

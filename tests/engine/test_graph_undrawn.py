@@ -95,7 +95,8 @@ def test_stipple_stays():
         for i in range(8)
         for j in range(8)
     ]
-    dots = [np.stack([p - (0.7, 0.2), p + (0.7, 0.2)]) for p in places]
+    tick = np.array([0.7, 0.2])
+    dots = [np.stack([place - tick, place + tick]) for place in places]
     frame = np.array([[15, 15], [305, 15], [305, 305], [15, 305], [15, 15]], float)
     maps, pen = seen([frame, *dots])
     graph, value = all_lines(maps, pen, SETTINGS)
