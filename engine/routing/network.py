@@ -102,7 +102,9 @@ def load(folder: Path) -> tuple[Any, dict[str, list[float]]]:
 
     try:
         calibration = json.loads((folder / "routing.json").read_text("utf-8"))
-        net = cv2.dnn.readNetFromONNX(str(folder / "routing.onnx"), cv2.dnn.ENGINE_NEW)
+        # From memory: OpenCV can't open every path that Python can.
+        data = np.frombuffer((folder / "routing.onnx").read_bytes(), np.uint8)
+        net = cv2.dnn.readNetFromONNX(data, engine=cv2.dnn.ENGINE_NEW)
     except (cv2.error, OSError, ValueError) as error:
         raise InvoluteError("The weights of the routing network are missing or damaged.") from error
     return net, calibration
