@@ -79,7 +79,7 @@ def all_lines(
     if len(chains.rows) == 0:
         return PlanarGraph.empty(), ridge.value
     graph, value = _pixel_graph(chains, ridge), ridge.value
-    del ridge, chains  # five more maps of the whole page
+    del ridge, chains
     graph = prune(contract(graph, 2.0), 3.0, maps)
     graph = unbridge(graph, value, maps)
     graph = split_bends(open_tips(graph, value, 2.0))

@@ -1,7 +1,8 @@
 """Log-odds that two half-branches are one line, by the trained network.
 
 The network sees the whole drawing at once: see `encoding` for its input and training/routing for
-its making. OpenCV runs it; its cost and memory grow linearly with the number of junctions.
+its making. OpenCV runs it; its cost grows linearly with the number of junctions, and
+large drawings are looked at in parts (`windows`), so that its memory is bounded.
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ from ..errors import InvoluteError
 from ..values import Array, Pair, PlanarGraph
 from . import geometric
 from .encoding import encode
+from .windows import windows
 
 _WEIGHTS = Path(__file__).resolve().parent.parent / "weights"
 _running = Lock()
@@ -50,8 +52,13 @@ def score(
         InvoluteError: the weights are missing or can't be read.
     """
     encoding = encode(graph, fixed)
-    table = _forward(encoding.tokens, encoding.pairs, encoding.sibling, encoding.mask)
-    slots = encoding.halves.shape[1]
+    count, slots = encoding.halves.shape
+    places = graph.vertices[graph.half_vertex[encoding.halves[:, 0]]]
+    table = np.zeros((count, slots, slots), np.float32)
+    for window in windows(encoding, places):
+        part, own, few = window.part, len(window.rows), window.slots
+        scores = _forward(part.tokens, part.pairs, part.sibling, part.mask)
+        table[window.rows, :few, :few] = scores[:own]
     slot = np.full(2 * graph.branch_count, -1)
     filled = np.flatnonzero(encoding.halves.reshape(-1) >= 0)
     slot[encoding.halves.reshape(-1)[filled]] = filled
@@ -66,8 +73,6 @@ def score(
 
 def _forward(tokens: Array, pairs: Array, sibling: Array, mask: Array) -> Array:
     """(J, D, D) calibrated scores."""
-    if not len(tokens):
-        return np.zeros((*mask.shape, mask.shape[1]), np.float32)
     with _running:  # a net holds the state of its last run
         net, calibration = load(_WEIGHTS)
         net.setInput(tokens, "tokens")

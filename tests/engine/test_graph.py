@@ -6,7 +6,8 @@ import cv2
 import numpy as np
 import pytest
 from involute.engine import Settings
-from involute.engine.graph import build_graph
+from involute.engine.graph import build_graph, ridge
+from involute.engine.graph.ridge import Ridge
 from involute.engine.values import LineMaps, PlanarGraph
 
 SIZE = 120
@@ -235,3 +236,16 @@ def test_a_faint_rung_stays_only_where_junctions_are_seen(seen: bool) -> None:
     ridge = np.maximum(drawn(*rails), 0.6 * drawn(rung))
     heat = spots((60.3, 50.3), (60.3, 58.3)) if seen else np.zeros_like(ridge)
     assert build_graph(LineMaps(ridge, heat), 2.0, Settings()).branch_count == (5 if seen else 2)
+
+
+def test_bands_of_rows_make_no_difference(monkeypatch: pytest.MonkeyPatch) -> None:
+    rng = np.random.default_rng(3)
+    image = cv2.GaussianBlur(rng.random((90, 70)).astype(np.float32), (0, 0), 1.5)
+    image = (image - image.min()) / np.ptp(image)
+    whole = Ridge.of(image)
+    rows, columns = np.nonzero(whole.mask())
+    points = whole.crest(rows, columns)
+    monkeypatch.setattr(ridge, "BAND", 16)
+    banded = Ridge.of(image)
+    np.testing.assert_array_equal(np.nonzero(banded.mask()), (rows, columns))
+    np.testing.assert_array_equal(banded.crest(rows, columns), points)

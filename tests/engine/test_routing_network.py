@@ -14,6 +14,7 @@ from involute.engine import InvoluteError, Settings
 from involute.engine.routing import geometric, network, route
 from involute.engine.routing.encoding import MAX_DEGREE, encode
 from involute.engine.routing.halves import candidate_pairs
+from involute.engine.routing.windows import windows
 from involute.engine.values import PlanarGraph
 from involute.training.routing.planar import graph_from_strokes
 
@@ -126,6 +127,36 @@ def test_empty_slots_and_other_pages_sizes_change_no_score(scribble: Scribble) -
     assert (wide.halves[:, slots:] == -1).all()
     np.testing.assert_array_equal(narrow.tokens, wide.tokens[:, :slots])
     np.testing.assert_array_equal(narrow.pairs, wide.pairs[:, :slots, :slots])
+
+
+@given(st.integers(0, 999), st.integers(2, 400))
+@settings(max_examples=20, deadline=None)
+def test_a_drawing_in_parts_is_the_whole_drawing(scribble: Scribble, seed: int, most: int) -> None:
+    graph, _ = scribble(seed, 12)
+    if not len(graph.junctions):
+        return
+    whole = encode(graph)
+    places = graph.vertices[graph.half_vertex[whole.halves[:, 0]]]
+    parts = list(windows(whole, places, most))
+    rows = np.concatenate([window.rows for window in parts])
+    assert sorted(rows.tolist()) == list(range(len(whole.halves)))
+    for window in parts:
+        part, few = window.part, window.slots
+        own = (whole.halves[window.rows] >= 0).sum(1)
+        assert len(own) == 1 or len(own) * own.max() ** 2 <= most
+        np.testing.assert_array_equal(part.halves[: len(own)], whole.halves[window.rows, :few])
+        # The other end of a branch is the other end of that branch, or out of sight.
+        flat = np.append(part.halves.reshape(-1), -1)
+        there = (part.halves >= 0) & (part.sibling < part.halves.size)
+        np.testing.assert_array_equal(flat[part.sibling[there]], part.halves[there] ^ 1)
+
+
+def test_one_part_is_all_of_a_small_drawing(scribble: Scribble) -> None:
+    graph, _ = scribble(5, 10)
+    whole = encode(graph)
+    (window,) = windows(whole, graph.vertices[graph.half_vertex[whole.halves[:, 0]]])
+    for name in ("halves", "tokens", "pairs", "sibling"):
+        np.testing.assert_array_equal(getattr(window.part, name), getattr(whole, name))
 
 
 def test_a_stem_that_tapers_or_fades_towards_its_junction_is_seen() -> None:
