@@ -27,11 +27,12 @@ WEIGHTS = Path(__file__).resolve().parent.parent / "weights" / "undrawn.npz"
 SURE = 0.5  # probability from which on a branch goes
 FEATURES = 11 + 2 * 11  # of a branch: its own, and those of its two ends
 _LOOK = 6  # points of a branch that tell its direction
+LONGEST = 5.0  # pen widths; a longer branch stays, whatever is thought of it
 _AROUND = 25  # px; side of the square in which junctions are counted
 
 
 def drop_undrawn(graph: PlanarGraph, value: Array, maps: LineMaps, pen_width: float) -> PlanarGraph:
-    """The graph without the branches that were most probably never drawn.
+    """The graph without the short branches that were most probably never drawn.
 
     Without the maps of a network, or without weights, the graph stays as it is.
 
@@ -46,6 +47,7 @@ def drop_undrawn(graph: PlanarGraph, value: Array, maps: LineMaps, pen_width: fl
     if graph.branch_count == 0 or unseen or not WEIGHTS.exists():
         return graph
     false = probability(features(graph, value, maps, pen_width)) > SURE
+    false &= lengths(graph) < LONGEST * pen_width
     return join(select(graph, ~false)) if false.any() else graph
 
 
