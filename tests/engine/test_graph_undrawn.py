@@ -103,3 +103,22 @@ def test_stipple_stays():
     loose = (graph.degrees[graph.ends] == 1).all(1).sum()
     assert loose >= 0.95 * len(dots)
     assert drop_undrawn(graph, value, maps, pen).branch_count >= graph.branch_count - 1
+
+
+def test_the_wide_stems_of_lettering_stay():
+    """The network has only seen pages of one pen; of a title above a drawing nothing may go."""
+    hatch = [np.array([[30, y], [290, y + 6]], float) for y in range(120, 300, 14)]
+    stems = [np.array([[x, 30], [x, 80]], float) for x in (60, 110, 160)]
+    serifs = [np.array([[x - 9, 80], [x + 9, 80]], float) for x in (60, 110, 160)]
+    fine = np.zeros((SIZE * 4, SIZE * 4), np.uint8)
+    for lines, wide in ((hatch, 8), (serifs, 8), (stems, 28)):
+        for line in lines:
+            cv2.polylines(fine, [np.rint(line * 64).astype(np.int32)], False, 255, wide, 8, 4)
+    page = 255 - cv2.resize(fine, (SIZE, SIZE), interpolation=cv2.INTER_AREA)
+    scan = read_scan(page, SETTINGS)
+    maps = provider_for(SETTINGS)(scan, lambda fraction: None)
+    graph, value = all_lines(maps, scan.pen_width, SETTINGS)
+    left = drop_undrawn(graph, value, maps, scan.pen_width)
+    for stem in stems:
+        middle = stem.mean(0) / scan.scale
+        assert np.hypot(*(left.points - middle).T).min() < 2
