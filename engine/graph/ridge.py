@@ -20,8 +20,6 @@ SIGMA = 0.8  # px; 0.7 to 0.9 separates parallels 2.5 px apart and still average
 FAINT = 0.1  # a line may fade to this probability ...
 CLEAR = 0.33  # ... when it reaches this one somewhere (25 and 85 of 255 in the paper)
 PEAK = 0.6  # what smoothing leaves of the crest of a line
-
-
 BAND = 512  # rows whose derivatives are held at a time, so that large pages need little memory
 
 
@@ -95,8 +93,9 @@ class Ridge:
         """Sub-pixel points (N, 2) of the line that runs through or beside the given pixels."""
         points = np.zeros((len(rows), 2))
         order = np.argsort(rows, kind="stable")
+        by_row = rows[order]
         for top in range(0, len(self.value), BAND):
-            first, last = np.searchsorted(rows[order], [top, top + BAND])
+            first, last = np.searchsorted(by_row, [top, top + BAND])
             if first < last:
                 some = order[first:last]
                 points[some] = self._crest(rows[some], columns[some], top)
