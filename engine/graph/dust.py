@@ -6,7 +6,7 @@ import numpy as np
 
 from ..settings import Settings
 from ..values import PlanarGraph
-from .topology import connected, lengths, select
+from .topology import connected, lengths, means, select
 
 Array = np.ndarray
 
@@ -28,7 +28,7 @@ def sweep(graph: PlanarGraph, settings: Settings) -> PlanarGraph:
     label = connected(len(graph.vertices), graph.ends)
     piece = np.unique(label[graph.ends[:, 0]], return_inverse=True)[1]
     length = lengths(graph)
-    width, dark = _means(graph, graph.widths), _means(graph, graph.strength) / full
+    width, dark = means(graph, graph.widths), means(graph, graph.strength) / full
     weight = length + width  # caps included
     mass = np.bincount(piece, weight)
     cap = np.bincount(piece, weight * width) / mass
@@ -36,8 +36,3 @@ def sweep(graph: PlanarGraph, settings: Settings) -> PlanarGraph:
     shortest = settings.min_length * np.maximum(_FAINT / np.maximum(share, 0.01), 1.0) ** 2
     stays = np.bincount(piece, length) + cap >= (shortest + _SPECK) * pen
     return select(graph, stays[piece])
-
-
-def _means(graph: PlanarGraph, values: Array) -> Array:
-    """(B,) the mean of (P,) values on each branch."""
-    return np.add.reduceat(values.astype(np.float64), graph.offsets[:-1]) / np.diff(graph.offsets)

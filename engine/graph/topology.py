@@ -98,3 +98,8 @@ def lengths(graph: PlanarGraph) -> Array:
     steps = np.hypot(*np.diff(graph.points.astype(np.float64), axis=0, append=0).T)
     steps[graph.offsets[1:] - 1] = 0.0
     return np.add.reduceat(steps, graph.offsets[:-1])
+
+
+def means(graph: PlanarGraph, values: Array) -> Array:
+    """(B,) the mean of (P,) values on each branch."""
+    return np.add.reduceat(values.astype(np.float64), graph.offsets[:-1]) / np.diff(graph.offsets)

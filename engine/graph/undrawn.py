@@ -19,7 +19,7 @@ from ..sampling import sample
 from ..values import LineMaps, PlanarGraph
 from .cleanup import seen_near
 from .curves import pairs_within
-from .topology import join, lengths, select
+from .topology import join, lengths, means, select
 
 Array = np.ndarray
 
@@ -71,10 +71,11 @@ def _net() -> dict[str, Array]:
 def features(graph: PlanarGraph, value: Array, maps: LineMaps, pen_width: float) -> Array:
     """(B, F) float64: what tells a branch that was drawn from one that was not."""
     length = lengths(graph)
-    bright = sample(value, graph.points)
-    mean, least, most = (_over(graph, bright, how) for how in (np.add, np.minimum, np.maximum))
-    width = 2 * _over(graph, sample(maps.half_width, graph.points), np.add) / pen_width
-    solid = _over(graph, sample(maps.solid, graph.points), np.add)
+    bright = sample(value, graph.points).astype(np.float64)
+    mean = means(graph, bright)
+    least, most = (how.reduceat(bright, graph.offsets[:-1]) for how in (np.minimum, np.maximum))
+    width = 2 * means(graph, sample(maps.half_width, graph.points)) / pen_width
+    solid = means(graph, sample(maps.solid, graph.points))
     chord = np.hypot(*(graph.vertices[graph.ends[:, 0]] - graph.vertices[graph.ends[:, 1]]).T)
     ends = _at_ends(graph, mean, length, maps)
     # Both ends tell the same things: the smaller and the larger of each.
@@ -95,32 +96,25 @@ def features(graph: PlanarGraph, value: Array, maps: LineMaps, pen_width: float)
     return np.column_stack([*alone, both.min(1), both.max(1)])
 
 
-def _over(graph: PlanarGraph, values: Array, how: np.ufunc) -> Array:
-    """(B,) the mean (np.add), least or largest of values at the points of each branch."""
-    found = how.reduceat(values.astype(np.float64), graph.offsets[:-1])
-    return found / np.diff(graph.offsets) if how is np.add else found
-
-
 def _at_ends(graph: PlanarGraph, mean: Array, length: Array, maps: LineMaps) -> Array:
     """(2B, E): how each half-branch lies at its vertex, and what is seen there."""
     vertex = graph.half_vertex
     degree = graph.degrees[vertex]
     out = _directions(graph)
-    a, b = pairs_within(np.where(graph.degrees[vertex] >= 3, vertex, -1)).T
+    a, b = pairs_within(np.where(degree >= 3, vertex, -1)).T
     turn = (out[a] * out[b]).sum(1)
     straight, beside = np.full(len(vertex), -1.0), np.full(len(vertex), -1.0)
     for one in (a, b):
         np.maximum.at(straight, one, -turn)
         np.maximum.at(beside, one, turn)
     # How well the others run past this one: the straightest pair that it is no part of.
-    past = np.full(len(vertex), -1.0)
     order = np.lexsort((turn, vertex[a]))
     first = np.flatnonzero(np.diff(vertex[a][order], prepend=-1))
     best = np.full((len(graph.vertices), 3), -1.0)
     best[vertex[a[order[first]]]] = np.stack(
         [-turn[order[first]], a[order[first]], b[order[first]]], 1
     )
-    mine = (best[vertex, 1] == np.arange(len(vertex))) | (best[vertex, 2] == np.arange(len(vertex)))
+    mine = (best[vertex, 1:] == np.arange(len(vertex))[:, None]).any(1)
     past = np.where(mine, -1.0, best[vertex, 0])
     # The brightest and the longest neighbour.
     bright, long = np.zeros(len(vertex)), np.zeros(len(vertex))
