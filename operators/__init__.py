@@ -5,27 +5,27 @@ from __future__ import annotations
 from importlib import import_module
 
 _VERBS = (
-    "tracing",
-    "trace",
-    "import_scan",
-    "use_defaults",
-    "sequence",
-    "reroute",
-    "join",
-    "separate",
-    "lock",
-    "accept",
-    "ask_again",
-    "go_to_junction",
-    "preview",
-    "choose",
-    "drag_join",
+    "tracing.background",
+    "tracing.trace",
+    "tracing.import_scan",
+    "tracing.use_defaults",
+    "sequences.trace_frames",
+    "junctions.reroute",
+    "junctions.join",
+    "junctions.separate",
+    "junctions.lock",
+    "junctions.accept",
+    "junctions.ask_again",
+    "junctions.go_to_junction",
+    "junctions.preview",
+    "junctions.choose",
+    "junctions.drag_join",
 )
 
 
 def _classes() -> list[type]:
-    from .trace_settings import INVOLUTE_PG_trace_settings
-    from .view_state import INVOLUTE_PG_view
+    from .junctions.view_state import INVOLUTE_PG_view
+    from .tracing.trace_settings import INVOLUTE_PG_trace_settings
 
     verbs = [import_module(f".{name}", __package__) for name in _VERBS]
     operators = [cls for verb in verbs for cls in verb.CLASSES]
@@ -35,22 +35,24 @@ def _classes() -> list[type]:
 def register() -> None:
     import bpy
 
-    from . import command, trace_settings, view_state
+    from . import blender_command
+    from .junctions import view_state
+    from .tracing import trace_settings
 
     for cls in _classes():
         bpy.utils.register_class(cls)
     pointer = bpy.props.PointerProperty
     bpy.types.Scene.involute = pointer(type=trace_settings.INVOLUTE_PG_trace_settings)
     bpy.types.WindowManager.involute_view = pointer(type=view_state.INVOLUTE_PG_view)
-    command.register()
+    blender_command.register()
 
 
 def unregister() -> None:
     import bpy
 
-    from . import command
+    from . import blender_command
 
-    command.unregister()
+    blender_command.unregister()
     del bpy.types.WindowManager.involute_view
     del bpy.types.Scene.involute
     for cls in reversed(_classes()):

@@ -79,7 +79,7 @@ def _object(scene: bpy.types.Scene, name: str, drawing: Drawing) -> bpy.types.Ob
     """A new Grease Pencil object in the scene; the first one gets the camera."""
     import bpy
 
-    from .trace import new_object
+    from .tracing.trace import new_object
 
     obj = new_object(name)
     scene.collection.objects.link(obj)
@@ -96,9 +96,9 @@ def _object(scene: bpy.types.Scene, name: str, drawing: Drawing) -> bpy.types.Ob
 def _put(
     obj: bpy.types.Object, frame: int, drawing: Drawing, source: str, *, alone: bool = False
 ) -> None:
-    from . import grease_pencil as gp
-    from . import state
-    from .placement import front_view
+    from .grease_pencil import layers as gp
+    from .grease_pencil import state
+    from .grease_pencil.placement import front_view
 
     placement = front_view(drawing.size)
     key = state.add(obj.data, drawing, placement, source)

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 import bpy
 
-from ..operators.go_to_junction import INVOLUTE_OT_step_junction
-from .pie import INVOLUTE_MT_pie
+from ..operators.junctions.go_to_junction import INVOLUTE_OT_step_junction
+from .panels.pie import INVOLUTE_MT_pie
 
 _MENU = "wm.call_menu_pie"
 _added: list[tuple[bpy.types.KeyMap, bpy.types.KeyMapItem]] = []

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import bpy
 
-from ..operators.choose import INVOLUTE_OT_choose
-from ..operators.drag_join import INVOLUTE_OT_drag_join, INVOLUTE_OT_separate_under_mouse
+from ..operators.junctions.choose import INVOLUTE_OT_choose
+from ..operators.junctions.drag_join import INVOLUTE_OT_drag_join, INVOLUTE_OT_separate_under_mouse
 
 
 class _Junctions:

@@ -8,22 +8,24 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from .drawings import cross, many_strokes
+from .example_drawings import cross, many_strokes
 
 
 def make(bpy, part, drawing, placement=None):
     """Write a drawing into a new object at frame 1."""
-    trace, state, gp = (part(f"operators.{name}") for name in ("trace", "state", "grease_pencil"))
+    trace = part("operators.tracing.trace")
+    state, gp = (part(f"operators.grease_pencil.{name}") for name in ("state", "layers"))
     obj = trace.new_object("Ink")
     bpy.context.scene.collection.objects.link(obj)
-    placement = placement or part("operators.placement").front_view(drawing.size)
+    placement = placement or part("operators.grease_pencil.placement").front_view(drawing.size)
     key = state.add(obj.data, drawing, placement, "test")
     gp.write(obj.data, 1, drawing, placement, key)
     return obj, placement
 
 
 def curves_of(part, obj, layer="Black", frame=1):
-    return part("operators.grease_pencil").read(obj.data.layers[layer].get_frame_at(frame).drawing)
+    layers = part("operators.grease_pencil.layers")
+    return layers.read(obj.data.layers[layer].get_frame_at(frame).drawing)
 
 
 def with_handles(stroke):
@@ -56,7 +58,7 @@ def test_strokes_arrive_whole(bpy, part, curve):
 
 
 def test_drawing_lies_in_the_front_view_two_metres_tall(bpy, part):
-    placement = part("operators.placement").front_view((400, 300))
+    placement = part("operators.grease_pencil.placement").front_view((400, 300))
     corners = placement.to_object(np.array([[0, 0], [400, 300]]))
     np.testing.assert_allclose(corners[:, 2], [1, -1])
     np.testing.assert_allclose(corners[:, 0], [-4 / 3, 4 / 3], rtol=1e-6)
@@ -93,7 +95,8 @@ def test_solid_blacks_lie_below_without_their_holes(bpy, part):
 
 
 def test_replace_keeps_order_and_other_attributes(bpy, part):
-    gp, curves = part("operators.grease_pencil"), part("operators.curves")
+    gp = part("operators.grease_pencil.layers")
+    curves = part("operators.grease_pencil.stroke_arrays")
     obj, _ = make(bpy, part, cross(part))
     drawing = obj.data.layers["Black"].get_frame_at(1).drawing
     attribute = drawing.attributes.new("mine", "FLOAT", "CURVE")
@@ -114,7 +117,8 @@ def test_replace_keeps_order_and_other_attributes(bpy, part):
 
 
 def test_tracing_again_keeps_strokes_drawn_by_hand(bpy, part):
-    gp, curves = part("operators.grease_pencil"), part("operators.curves")
+    gp = part("operators.grease_pencil.layers")
+    curves = part("operators.grease_pencil.stroke_arrays")
     drawing = cross(part)
     obj, placement = make(bpy, part, drawing)
     page = obj.data.layers["Black"].get_frame_at(1).drawing
@@ -125,9 +129,9 @@ def test_tracing_again_keeps_strokes_drawn_by_hand(bpy, part):
 
 def test_ten_thousand_strokes_take_a_fifth_of_a_second(bpy, part):
     drawing = many_strokes(part, 10_000, 50)
-    gp = part("operators.grease_pencil")
-    placement = part("operators.placement").front_view(drawing.size)
-    obj = part("operators.trace").new_object("Many")
+    gp = part("operators.grease_pencil.layers")
+    placement = part("operators.grease_pencil.placement").front_view(drawing.size)
+    obj = part("operators.tracing.trace").new_object("Many")
     start = time.process_time()
     gp.write(obj.data, 1, drawing, placement, 1)
     print(f"10,000 strokes of 50 points: {time.process_time() - start:.3f} s of CPU")
@@ -147,4 +151,4 @@ def test_ten_thousand_strokes_take_a_fifth_of_a_second(bpy, part):
     ],
 )
 def test_ink_names(part, color, name):
-    assert part("operators.inks").ink_name(color) == name
+    assert part("engine.ink.ink_names").ink_name(color) == name

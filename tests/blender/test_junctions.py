@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from .drawings import cross, grid, ring_and_lines
+from .example_drawings import cross, grid, ring_and_lines
 from .test_grease_pencil import make
 from .test_rerouting import assert_same, drawing_of, strokes_in
 
@@ -25,7 +25,7 @@ def view(bpy):
 
 
 def shown(bpy, part):
-    return part("operators.view_state").shown_in(bpy.context)
+    return part("operators.junctions.view_state").shown_in(bpy.context)
 
 
 def test_operators_need_a_traced_drawing(bpy):
@@ -97,7 +97,7 @@ def test_lock_accept_and_ask_again(bpy, part, traced):
 
 
 def test_list_filters_and_order(part):
-    table = part("operators.junction_table").JunctionTable(
+    table = part("operators.junctions.junction_table").JunctionTable(
         positions=np.array([[5, 90], [50, 5], [10, 6], [40, 50]], np.float32),
         degree=np.array([3, 4, 3, 7]),
         doubt=np.array([0.05, 0.4, 0.2, 0.0], np.float32),
@@ -137,7 +137,7 @@ def test_two_drawings_do_not_touch_each_other(bpy, part, traced, view):
 
 def test_frames_have_their_own_junctions(bpy, part, traced):
     obj, placement = traced
-    gp, state = part("operators.grease_pencil"), part("operators.state")
+    gp, state = part("operators.grease_pencil.layers"), part("operators.grease_pencil.state")
     drawing = cross(part)
     gp.write(obj.data, 10, drawing, placement, state.add(obj.data, drawing, placement, "ten"))
     scene = bpy.context.scene
@@ -156,7 +156,7 @@ def test_files_of_a_newer_involute_are_left_alone(bpy, part, traced):
 
 
 def test_words(part):
-    words = part("operators.junction_words")
+    words = part("operators.junctions.junction_words")
     drawing = cross(part)
     junction = drawing.junctions[0]
     names = words.letters(drawing, junction)
@@ -170,7 +170,7 @@ def test_words(part):
 
 
 def test_picking_needs_no_gpu(part):
-    picking = part("operators.picking")
+    picking = part("operators.junctions.picking")
     matrix = np.array([[0.1, 0, 0, 0], [0, 0.2, 0, 0], [0, 0, 0, 0], [0, 0, 0, 1.0]])
     points = np.array([[0, 0, 0], [5, 2.5, 0], [-5, 0, 1]])
     places = picking.project(points, matrix, 200, 100)
@@ -185,7 +185,7 @@ def test_picking_needs_no_gpu(part):
 
 
 def test_a_drag_joins_the_nearest_lines_that_meet(part):
-    pair = part("operators.picking").nearest_pair
+    pair = part("operators.junctions.picking").nearest_pair
     vertex = np.array([0, 1, 0, 2, 1, 2])
     assert pair({0: 5.0, 1: 2.0}, {2: 1.0, 3: 0.5}, vertex) == (0, 2)
     assert pair({0: 5.0, 1: 2.0}, {2: 9.0, 4: 1.0}, vertex) == (1, 4)
@@ -194,7 +194,7 @@ def test_a_drag_joins_the_nearest_lines_that_meet(part):
 
 @pytest.mark.parametrize("anchor", [(400, 300), (5, 5), (795, 595), (-500, 2000)])
 def test_cards_stay_inside_the_region(part, anchor):
-    cards = part("operators.cards")
+    cards = part("operators.junctions.card_layout")
     row = cards.layout(5, anchor, (800, 600))
     assert all(c.x >= 0 and c.y >= 0 for c in row)
     assert all(c.x + c.width <= 800 and c.y + c.height <= 600 for c in row)
@@ -203,8 +203,8 @@ def test_cards_stay_inside_the_region(part, anchor):
 
 
 def test_overlay_geometry(part):
-    geometry, colors = part("ui.overlay_geometry"), part("ui.colors")
-    table = part("operators.junction_table").JunctionTable(
+    geometry, colors = part("ui.overlay.overlay_geometry"), part("ui.overlay.colors")
+    table = part("operators.junctions.junction_table").JunctionTable(
         np.array([[10, 10], [50, 40]], np.float32),
         np.array([3, 4]),
         np.array([0.0, 0.5], np.float32),
@@ -229,7 +229,7 @@ def test_overlay_geometry(part):
 
 def test_sketches_show_short_lines_as_large_as_long_ones(part):
     """Else the card of a short and a long line that are joined shows nothing of the short one."""
-    geometry, drawing = part("ui.overlay_geometry"), ring_and_lines(part)
+    geometry, drawing = part("ui.overlay.overlay_geometry"), ring_and_lines(part)
     for junction in drawing.junctions:
         for way in junction.alternatives:
             for route in geometry.sketch(drawing, junction, way.pairs):
@@ -248,6 +248,6 @@ def test_overlay_and_panels_are_there(bpy, part, traced):
     assert not bpy.types.INVOLUTE_PT_junction.poll(bpy.context)
     bpy.ops.involute.go_to_junction(junction=2)
     assert bpy.types.INVOLUTE_PT_junction.poll(bpy.context)
-    assert len(part("ui.overlay")._handles) == 2
+    assert len(part("ui.overlay.overlay")._handles) == 2
     keys = list(part("ui.keymap").items(bpy.context.window_manager.keyconfigs.addon))
     assert len(keys) == 3

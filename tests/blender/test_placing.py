@@ -15,7 +15,7 @@ def corners(bpy, part):
 
     def find(place, pixels_per_metre=0.0):
         bpy.context.view_layer.update()
-        stand = part("operators.placing").stand
+        stand = part("operators.tracing.standing").stand
         placement, matrix = stand(bpy.context, SIZE, place, pixels_per_metre)
         local = np.c_[placement.to_object(CORNERS), np.ones(4)]
         return (local @ np.array(matrix).T)[:, :3]

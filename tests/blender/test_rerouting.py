@@ -8,13 +8,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from .drawings import cross, grid, ring_and_lines
+from .example_drawings import cross, grid, ring_and_lines
 from .test_grease_pencil import curves_of, make, with_handles
 
 
 def strokes_in(part, obj, placement, frame=1):
     """Every stroke of all layers as (points in pixels, closed), in any order and direction."""
-    gp = part("operators.grease_pencil")
+    gp = part("operators.grease_pencil.layers")
     found = []
     for _, page in gp.drawings_at(obj.data, frame):
         curves = gp.read(page)
@@ -41,7 +41,8 @@ def assert_same(found, strokes):
 
 
 def change(part, obj, how, frame=1):
-    state, rerouting = part("operators.state"), part("operators.rerouting")
+    state = part("operators.grease_pencil.state")
+    rerouting = part("operators.grease_pencil.rerouting")
     key = state.keys_at(obj.data, frame)[0]
     return rerouting.change(obj.data, frame, key, how)
 
@@ -63,7 +64,7 @@ def check_rerouted(part, obj, placement, wanted):
 
 
 def drawing_of(part, obj, frame=1):
-    state = part("operators.state")
+    state = part("operators.grease_pencil.state")
     return state.load(obj.data, state.keys_at(obj.data, frame)[0]).drawing
 
 
@@ -85,7 +86,7 @@ def test_state_travels_with_the_data(bpy, part):
     obj, _ = make(bpy, part, drawing)
     again = drawing_of(part, obj)
     assert_same([(s.points, s.closed) for s in again.strokes], drawing.strokes)
-    part("operators.state")._decoded.clear()
+    part("operators.grease_pencil.state")._decoded.clear()
     again = drawing_of(part, obj)
     assert_same([(s.points, s.closed) for s in again.strokes], drawing.strokes)
     assert again.junctions[0].alternatives == drawing.junctions[0].alternatives
@@ -135,7 +136,7 @@ def test_strokes_that_run_the_other_way_are_found_again(bpy, part, touched):
         move(page_of(obj), slice(None), (1e-3, 0, 0))
     whole = {j.index: j.pairs for j in drawing.junctions}
     for pairs in ({0: (), 2: ()}, whole, {1: (), 4: ()}, whole, {3: (), 0: ()}):
-        part("operators.state")._decoded.clear()
+        part("operators.grease_pencil.state")._decoded.clear()
         check_rerouted(part, obj, placement, pairs)
 
 
@@ -155,7 +156,7 @@ def test_closed_strokes_that_start_elsewhere_are_found_again(bpy, part, seed, to
     whole = {j.index: j.pairs for j in drawing.junctions}
     for number in range(10):
         if forget:  # as after saving and opening again
-            part("operators.state")._decoded.clear()
+            part("operators.grease_pencil.state")._decoded.clear()
         junction = drawing.junctions[random.integers(len(drawing.junctions))]
         pairs = junction.alternatives[random.integers(len(junction.alternatives))].pairs
         wanted = whole if number % 3 == 2 else {junction.index: pairs}
@@ -228,7 +229,7 @@ def test_strokes_elsewhere_are_left_alone(bpy, part):
     obj, _ = make(bpy, part, cross(part))
     page = page_of(obj)
     page.add_strokes([4])  # drawn by hand
-    curves = part("operators.curves")
+    curves = part("operators.grease_pencil.stroke_arrays")
     change(part, obj, lambda d: d.reroute(0, ()))
     after = curves_of(part, obj)
     assert len(after) == 6  # two lines became four; circle and hand-drawn stroke
@@ -241,7 +242,7 @@ def test_moved_points_and_looks_survive_split_and_join(bpy, part):
     obj, placement = make(bpy, part, drawing)
     page = page_of(obj)
     curves = curves_of(part, obj)
-    part("operators.grease_pencil").set_column(page, "material_index", np.array([0, 3, 0]))
+    part("operators.grease_pencil.layers").set_column(page, "material_index", np.array([0, 3, 0]))
     shifted = curves.offsets[1] + 2
     move(page, shifted, (0.0, 0.25, 0.1))
     radius = curves.point("radius").astype(np.float32)
@@ -289,9 +290,9 @@ def test_vertex_weights_survive_split_and_join(bpy, part):
     before = [len(kind) for kind in (bpy.data.scenes, bpy.data.objects, bpy.data.node_groups)]
 
     def check(count):
-        gp = part("operators.grease_pencil")
+        gp = part("operators.grease_pencil.layers")
         pages = [gp.read(page) for _, page in gp.drawings_at(obj.data, 1)]
-        (now,) = part("operators.vertex_weights").with_weights(obj.data, 1, pages)
+        (now,) = part("operators.grease_pencil.vertex_weights").with_weights(obj.data, 1, pages)
         assert len(now) == count
         places = now.point("position")[:, 0] / 3 + 0.4
         np.testing.assert_allclose(now.point("vertex group Arm"), places, atol=2e-3)
@@ -356,7 +357,7 @@ def test_deleted_stroke_leaves_the_others(bpy, part):
 def test_scrambled_stroke_is_refused_and_nothing_changes(bpy, part):
     drawing = cross(part)
     obj, _ = make(bpy, part, drawing)
-    page, curves = page_of(obj), part("operators.curves")
+    page, curves = page_of(obj), part("operators.grease_pencil.stroke_arrays")
     attribute = page.attributes[curves.ALONG]
     along = np.zeros(len(attribute.data), np.float32)
     attribute.data.foreach_get("value", along)
@@ -364,15 +365,15 @@ def test_scrambled_stroke_is_refused_and_nothing_changes(bpy, part):
     attribute.data.foreach_set("value", along)
     before, stamp = (
         curves_of(part, obj),
-        part("operators.state")
-        .load(obj.data, part("operators.state").keys_at(obj.data, 1)[0])
+        part("operators.grease_pencil.state")
+        .load(obj.data, part("operators.grease_pencil.state").keys_at(obj.data, 1)[0])
         .stamp,
     )
     with pytest.raises(part("engine").InvoluteError, match="can't be told"):
         change(part, obj, lambda d: d.reroute(0, ()))
     after = curves_of(part, obj)
     np.testing.assert_array_equal(after.point("position"), before.point("position"))
-    state = part("operators.state")
+    state = part("operators.grease_pencil.state")
     assert state.load(obj.data, state.keys_at(obj.data, 1)[0]).stamp == stamp
 
 
@@ -441,7 +442,7 @@ def test_save_reopen_append_duplicate(bpy, part, tmp_path):
     def check():
         for name in names:
             found = bpy.data.objects[name]
-            part("operators.state")._decoded.clear()
+            part("operators.grease_pencil.state")._decoded.clear()
             change(part, found, lambda d: d.reroute(4, ()))
             assert_same(strokes_in(part, found, placement), drawing_of(part, found).strokes)
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-SOURCES = sorted([*ROOT.glob("ui/*.py"), *ROOT.glob("operators/*.py")])
+SOURCES = sorted([*ROOT.glob("ui/**/*.py"), *ROOT.glob("operators/**/*.py")])
 OUTSIDE = ("blend_file.py", "german.py")  # the command line speaks English; the table itself
 SAME = {"", "3", "4", "5+", "involute", "3D View", "Grease Pencil"}  # of these there is no German
 _BLENDERS = {"Name", "File Path", "Filepath used for importing the file"}  # it translates them
@@ -20,7 +20,7 @@ _TOLD = ("label", "message", "InvoluteError", "_color")
 
 @pytest.fixture
 def table(part) -> dict[str, str]:
-    return part("ui.german").TEXTS
+    return part("ui.language.german").TEXTS
 
 
 def trees() -> Iterator[ast.Module]:

@@ -1,0 +1,1 @@
+"""Numbered drawings as keyframes of one object."""

@@ -1,0 +1,1 @@
+"""From pictures to Grease Pencil: choosing, tracing in the background, placing."""

@@ -1,0 +1,1 @@
+"""Sidebar, menus and preferences."""
