@@ -18,6 +18,7 @@ from involute.engine.centerline.network import STRIDE
 from torch import nn
 from torch.nn.utils.fusion import fuse_conv_bn_eval
 
+from .. import digests
 from .model import CenterlineNet, Exported
 from .restore import restored
 
@@ -32,6 +33,7 @@ def main(arguments: list[str] | None = None) -> None:
     options = parser.parse_args(arguments)
     net = restored(options.checkpoint)
     export(net, options.out)
+    digests.note(options.out)
     print(f"{options.out.name}: {options.out.stat().st_size / 1e6:.1f} MB")
     print(f"OpenCV against torch: {worst_difference(net, options.out):.1e}")
 

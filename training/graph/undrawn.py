@@ -26,6 +26,7 @@ from involute.engine.values import PlanarGraph
 from scipy.spatial import cKDTree
 from torch import nn
 
+from .. import digests
 from ..routing.labels import labelled, unowned
 from ..routing.pages import Library, loosened
 from ..routing.traced import MOST_FALSE, look_ink, look_scan, on_canvas
@@ -57,6 +58,7 @@ def main() -> None:
     (args.run / "log.json").write_text(json.dumps(figures, indent=1), "utf-8")
     print(json.dumps(figures, indent=1))
     np.savez(args.out, **net)
+    digests.note(args.out)
 
 
 def gathered(path: Path, pages: int, jobs: int, work: tuple) -> tuple[Array, Array]:
