@@ -19,8 +19,8 @@ from pathlib import Path
 
 import cv2
 import numpy as np
-from involute.engine import Drawing, Settings
 from involute.command import trace_sequence
+from involute.engine import Drawing, Settings
 from involute.engine.sequence import number_frames
 from involute.engine.sequence.stroke_matching import match_strokes, sample_strokes
 from scipy.spatial import cKDTree

@@ -19,10 +19,12 @@ from concurrent.futures import ThreadPoolExecutor, as_completed
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cache, lru_cache
+from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from queue import SimpleQueue
 from typing import Any
 
+from ..engine import weights
 from ..engine.errors import InvoluteError
 from ..engine.formats.whole_file import whole_file, write_text
 from ..engine.settings import Settings
@@ -30,6 +32,7 @@ from ..engine.settings import Settings
 RECEIPTS = ".involute"  # folder beside the outputs; one small file for each drawing made there
 _MEMORY_PER_WORKER = 1.5e9  # bytes, for a page of A4 at 300 dpi with room to spare
 _IMAGES_PER_WORKER = 200  # then a fresh process takes over
+_LIBRARIES = ("numpy", "opencv-contrib-python-headless", "networkx")  # they compute the drawings
 
 
 @dataclass(frozen=True)
@@ -77,6 +80,7 @@ def run(
         progress: called as progress(stage, fraction of the image) when working in this process.
     """
     tasks = list(tasks)
+    _content.cache_clear()  # an image may have changed since the last run
     jobs = min(jobs or _default_jobs(), len(tasks))
     if resume:
         _remove_leftovers(tasks)
@@ -164,7 +168,8 @@ def fingerprint(task: Task) -> str:
         OSError: the image can't be read.
     """
     info = os.stat(task.source)
-    digest = hashlib.blake2b(_content(task.source, info.st_size, info.st_mtime_ns), digest_size=16)
+    image = _content(task.source, info.st_size, info.st_mtime_ns, info.st_ctime_ns)
+    digest = hashlib.blake2b(image, digest_size=16)
     recipe = [
         task.settings.as_dict(),
         task.page,
@@ -176,8 +181,8 @@ def fingerprint(task: Task) -> str:
 
 
 @lru_cache(4)
-def _content(source: str, size: int, changed: int) -> bytes:
-    """The hash of a file's bytes; remembered, since the images of a movie are all in one file."""
+def _content(source: str, size: int, changed: int, status: int) -> bytes:
+    """The hash of a file's bytes; remembered for a run: the images of a movie are in one file."""
     digest = hashlib.blake2b(digest_size=32)
     with open(source, "rb") as file:
         while block := file.read(1 << 20):
@@ -186,11 +191,18 @@ def _content(source: str, size: int, changed: int) -> bytes:
 
 
 @cache
-def _program() -> list[Any]:
-    """What identifies this program: names and sizes of its sources and weights."""
-    folder = Path(__file__).parents[1] / "engine"
-    files = sorted(p for p in folder.rglob("*") if p.suffix in (".py", ".onnx"))
-    return [[str(p.relative_to(folder)), p.stat().st_size] for p in files]
+def _program() -> str:
+    """The hash of what makes the drawings: all sources and weights, and the libraries' versions."""
+    folder = Path(weights.__file__).resolve().parents[1]
+    files = [*folder.rglob("*.py"), *(weights.FOLDER / name for name in weights.names())]
+    digest = hashlib.blake2b(digest_size=16)
+    for file in sorted(files):
+        content = hashlib.blake2b(file.read_bytes()).hexdigest()
+        digest.update(f"{file.relative_to(folder).as_posix()} {content}\n".encode())
+    for name in _LIBRARIES:
+        with suppress(PackageNotFoundError):
+            digest.update(f"{name} {version(name)}\n".encode())
+    return digest.hexdigest()
 
 
 def _receipt(task: Task) -> Path:

@@ -14,6 +14,8 @@ from pathlib import Path
 import numpy as np
 from scipy.spatial import Delaunay
 
+from .library import BOX, DrawingSet, read_sets
+
 Array = np.ndarray
 
 # How often a source is drawn from; see the data's own README for why.
@@ -28,10 +30,10 @@ SOURCES = {
     "arcticons": 1.0,
     "icons_permissive": 0.5,
     "fishdraw": 0.3,
+    "tangles": 1.0,
 }
 # Drawings with so few strokes that they say little alone.
 _DOODLES = {"quickdraw_raw", "quickdraw_simplified", "icons_permissive", "kanjivg"}
-_HELD_OUT = 12  # one drawing in so many is kept for validation
 _MAX_STROKES = 220
 # Typical length of a stroke on a page, px, shortest and longest; and the same for a drawing.
 _STROKE = (50.0, 220.0)
@@ -40,35 +42,26 @@ _SIZE = (120.0, 1600.0)
 
 @dataclass(frozen=True, eq=False)
 class Library:
-    """The drawings of the training data, by source; `held_out` picks the validation share."""
+    """The drawings of one side of the split, by source; `held_out` says which side."""
 
-    sources: dict[str, tuple[Array, Array, Array]]
+    sources: dict[str, DrawingSet]
     held_out: bool
 
     @staticmethod
     def load(folder: Path, held_out: bool) -> Library:
-        """Read SOURCE.npz files: points (N, 2), stroke_offsets, drawing_offsets, scale."""
-        sources = {}
-        for name in SOURCES:
-            path = folder / f"{name}.npz"
-            if path.exists():
-                data = np.load(path)
-                points = data["points"].astype(np.float32) * float(data["scale"])
-                sources[name] = points, data["stroke_offsets"], data["drawing_offsets"]
-        if not sources:
-            raise FileNotFoundError(f"No training drawings (*.npz) in {folder}")
-        return Library(sources, held_out)
+        """Read the sets of SOURCES that a folder holds.
+
+        Raises:
+            FileNotFoundError: the folder holds none of them.
+        """
+        sets = read_sets(folder, SOURCES)
+        return Library({k: v for k, v in sets.items() if len(v.part(held_out))}, held_out)
 
     def pick(self, rng: np.random.Generator, source: str) -> list[Array]:
         """One drawing of a source; its longer side is about 1."""
-        points, strokes, drawings = self.sources[source]
-        count = len(drawings) - 1
-        index = int(rng.integers(count))
-        while (index * 7 % _HELD_OUT == 0) != self.held_out:
-            index = int(rng.integers(count))
-        ids = range(drawings[index], drawings[index + 1])
-        lines = [points[strokes[k] : strokes[k + 1]] for k in ids]
-        return [line / 1024.0 - 0.5 for line in lines if len(line) > 1]
+        drawn = self.sources[source]
+        lines = drawn.strokes(int(rng.choice(drawn.part(self.held_out))))
+        return [line / BOX - 0.5 for line in lines if len(line) > 1]
 
     def page(self, rng: np.random.Generator) -> list[Array]:
         """A random page of random kind."""

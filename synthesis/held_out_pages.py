@@ -9,12 +9,13 @@ from __future__ import annotations
 
 import argparse
 import json
+from collections.abc import Sequence
 from pathlib import Path
 
 import cv2
 import numpy as np
 
-from .composed_pages import Library
+from .composed_pages import SOURCES, Library
 from .media import MEDIA, draw, line_spacing, sample
 from .sheet_of_paper import paper, scan, shadow
 from .true_graph import single_lines
@@ -40,6 +41,7 @@ def main() -> None:
     parser.add_argument("--out", type=Path, required=True)
     parser.add_argument("--pages", type=int, default=48)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--only", nargs="+", choices=list(SOURCES), help="these sets alone")
     args = parser.parse_args()
     args.out.mkdir(parents=True, exist_ok=True)
     rng = np.random.default_rng(args.seed)
@@ -48,7 +50,7 @@ def main() -> None:
     manifest = []
     for number in range(args.pages):
         name, medium = f"page_{number:03d}", media[number % len(media)]
-        strokes = _drawing(rng, library)
+        strokes = _drawing(rng, library, args.only)
         image, sheet = _drawn(rng, strokes, medium)
         cv2.imwrite(str(args.out / f"{name}.jpg"), image, [cv2.IMWRITE_JPEG_QUALITY, 88])
         (args.out / f"{name}.svg").write_text(_svg(strokes, image.shape), "utf-8")
@@ -57,12 +59,14 @@ def main() -> None:
     (args.out / "manifest.json").write_text(json.dumps(manifest, indent=1), "utf-8")
 
 
-def _drawing(rng: np.random.Generator, library: Library) -> list[Array]:
+def _drawing(
+    rng: np.random.Generator, library: Library, only: Sequence[str] | None = None
+) -> list[Array]:
     """True strokes that fill a page: one drawing, or several over each other."""
-    names = [name for name in _SOURCES if name in library.sources]
-    weight = np.array([_SOURCES[name] for name in names], float)
+    names = [name for name in only or _SOURCES if name in library.sources]
+    weight = np.array([_SOURCES.get(name, 1) for name in names], float)
     while True:
-        if rng.random() < _COMPOSED:
+        if not only and rng.random() < _COMPOSED:
             strokes = library.page(rng)
         else:
             strokes = library.pick(rng, str(rng.choice(names, p=weight / weight.sum())))

@@ -11,6 +11,8 @@ from pathlib import Path
 
 import numpy as np
 
+from .library import DrawingSet, read_sets
+
 Array = np.ndarray
 Rng = np.random.Generator
 Strokes = list[Array]
@@ -27,61 +29,31 @@ SET_WEIGHTS = {
     "arcticons": 1.0,
     "icons_permissive": 0.7,
     "kanjivg": 1.5,
+    "tangles": 1.0,
 }
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Library:
-    """All true drawings, packed; drawing d holds strokes drawing_offsets[d:d + 1]."""
+    """The true drawings, by set."""
 
-    points: Array
-    stroke_offsets: Array
-    drawing_offsets: Array
-    probability: Array
-    held_out: Array
+    sets: dict[str, DrawingSet]
 
     @staticmethod
     def load(folder: Path | str) -> Library:
-        """Read every .npz of a folder (see SET_WEIGHTS for the names that count).
-
-        Every 20th drawing is held out for validation.
+        """Read the sets of SET_WEIGHTS that a folder holds.
 
         Raises:
-            FileNotFoundError: the folder holds none of the sets.
+            FileNotFoundError: the folder holds none of them.
         """
-        points, strokes, drawings, weights = (
-            [],
-            [np.zeros(1, np.int64)],
-            [np.zeros(1, np.int64)],
-            [],
-        )
-        for path in sorted(Path(folder).glob("*.npz")):
-            weight = SET_WEIGHTS.get(path.stem, 0.0)
-            if not weight:
-                continue
-            with np.load(path) as packed:
-                strokes.append(packed["stroke_offsets"][1:].astype(np.int64) + strokes[-1][-1])
-                drawings.append(packed["drawing_offsets"][1:].astype(np.int64) + drawings[-1][-1])
-                points.append(packed["points"].astype(np.float32) * float(packed["scale"]))
-            weights.append(np.full(len(drawings[-1]), weight / len(drawings[-1])))
-        if not points:
-            raise FileNotFoundError(f"No drawings (.npz) in {folder}.")
-        probability = np.concatenate(weights)
-        return Library(
-            np.concatenate(points),
-            np.concatenate(strokes),
-            np.concatenate(drawings),
-            probability / probability.sum(),
-            np.arange(len(probability)) % 20 == 7,
-        )
+        return Library(read_sets(folder, SET_WEIGHTS))
 
     def pick(self, rng: Rng, held_out: bool) -> Strokes:
         """One drawing in a 0..1024 box, from the training or from the held-out part."""
-        chance = np.cumsum(self.probability * (self.held_out == held_out))
-        d = int(np.searchsorted(chance, rng.uniform(0, chance[-1]), side="right"))
-        d = min(d, len(self.probability) - 1)
-        ids = range(self.drawing_offsets[d], self.drawing_offsets[d + 1])
-        return [self.points[self.stroke_offsets[k] : self.stroke_offsets[k + 1]] for k in ids]
+        names = [name for name, drawn in self.sets.items() if len(drawn.part(held_out))]
+        weight = np.array([SET_WEIGHTS[name] for name in names])
+        drawn = self.sets[str(rng.choice(names, p=weight / weight.sum()))]
+        return drawn.strokes(int(rng.choice(drawn.part(held_out))))
 
 
 def transform(strokes: Strokes, matrix: Array, shift: Array) -> Strokes:

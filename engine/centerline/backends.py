@@ -11,6 +11,7 @@ from threading import Lock
 import cv2
 import numpy as np
 
+from .. import weights as shipped
 from ..errors import InvoluteError
 from ..settings import Device
 from ..values import Array
@@ -42,7 +43,7 @@ def load(weights: Path, device: Device) -> Infer:
 def _opencv(weights: Path) -> Infer:
     try:
         # From memory: OpenCV can't open every path that Python can.
-        data = np.frombuffer(weights.read_bytes(), np.uint8)
+        data = np.frombuffer(shipped.read(weights), np.uint8)
         net = cv2.dnn.readNetFromONNX(data, engine=cv2.dnn.ENGINE_NEW)
     except cv2.error as error:
         raise InvoluteError(f"Can't read the weights in {weights.name}.") from error
@@ -72,7 +73,7 @@ def _torch(weights: Path, device: str) -> Infer:
 
     from .onnx_torch import module
 
-    net = module(weights.read_bytes()).to(device)
+    net = module(shipped.read(weights)).to(device)
 
     def infer(ink: Array) -> Array:
         with torch.inference_mode():

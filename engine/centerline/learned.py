@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 
+from .. import weights
 from ..settings import Settings
 from ..values import Array, LineMaps, Scan
 from . import CenterlineProvider, Tick
 from .backends import Infer, load
 from .tiles import look
 
-WEIGHTS = Path(__file__).resolve().parent.parent / "weights" / "centerline.onnx"
+WEIGHTS = weights.FOLDER / "centerline.onnx"
 STRIDE = 16  # px; the network wants both sides of its input to be multiples of this
 HALF_WIDTH_UNIT = 10.5  # px of half-width that an output of 1 stands for
 _ALL_MAPS = 24_000_000  # px; larger pages go without the maps that only help
@@ -27,7 +26,8 @@ def provider(settings: Settings) -> CenterlineProvider:
     """A provider that runs the network on the device that the settings ask for.
 
     Raises:
-        InvoluteError: the weights are missing, or there is no GPU though one is asked for.
+        InvoluteError: the weights are missing or damaged, or there is no GPU though one is asked
+            for.
     """
     infer = load(WEIGHTS, settings.device)
 

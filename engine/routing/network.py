@@ -16,19 +16,19 @@ from typing import Any
 
 import numpy as np
 
+from .. import weights
 from ..errors import InvoluteError
 from ..values import Array, Pair, PlanarGraph
 from . import geometric
 from .encoding import encode
 from .windows import windows
 
-_WEIGHTS = Path(__file__).resolve().parent.parent / "weights"
 _running = Lock()
 
 
 def available() -> bool:
     """Whether the weights are there."""
-    return (_WEIGHTS / "routing.onnx").exists()
+    return (weights.FOLDER / "routing.onnx").exists()
 
 
 def score(
@@ -74,7 +74,7 @@ def score(
 def _forward(tokens: Array, pairs: Array, sibling: Array, mask: Array) -> Array:
     """(J, D, D) calibrated scores."""
     with _running:  # a net holds the state of its last run
-        net, calibration = load(_WEIGHTS)
+        net, calibration = load(weights.FOLDER)
         net.setInput(tokens, "tokens")
         net.setInput(pairs, "pairs")
         net.setInput(sibling.reshape(-1).astype(np.int64), "sibling")
@@ -106,9 +106,9 @@ def load(folder: Path) -> tuple[Any, dict[str, list[float]]]:
     import cv2
 
     try:
-        calibration = json.loads((folder / "routing.json").read_text("utf-8"))
+        calibration = json.loads(weights.read(folder / "routing.json"))
         # From memory: OpenCV can't open every path that Python can.
-        data = np.frombuffer((folder / "routing.onnx").read_bytes(), np.uint8)
+        data = np.frombuffer(weights.read(folder / "routing.onnx"), np.uint8)
         net = cv2.dnn.readNetFromONNX(data, engine=cv2.dnn.ENGINE_NEW)
     except (cv2.error, OSError, ValueError) as error:
         raise InvoluteError("The weights of the routing network are missing or damaged.") from error

@@ -19,6 +19,7 @@ from involute.engine.centerline.learned import STRIDE
 from torch import nn
 from torch.nn.utils.fusion import fuse_conv_bn_eval
 
+from .. import digests
 from .restore_unet import restored
 from .unet import CenterlineNet, Exported
 
@@ -33,6 +34,7 @@ def main(arguments: list[str] | None = None) -> None:
     options = parser.parse_args(arguments)
     net = restored(options.checkpoint)
     export(net, options.out)
+    digests.note(options.out)
     print(f"{options.out.name}: {options.out.stat().st_size / 1e6:.1f} MB")
     print(f"OpenCV against torch: {worst_difference(net, options.out):.1e}")
 

@@ -14,15 +14,16 @@ from pathlib import Path
 
 import numpy as np
 import torch
+from involute.engine import weights as shipped
 from involute.engine.routing.encoding import PAIR_SIZE, TOKEN_SIZE
 
 from ...synthesis.composed_pages import Library
+from .. import digests
 from .graph_bank import Batch
 from .likelihood import exact
 from .set_transformer import RoutingNet
 from .train_routing import run, validation
 
-WEIGHTS = Path(__file__).resolve().parents[2] / "engine" / "weights"
 _DEGREES = 4  # 3, 4, 5, and 6 or more
 
 
@@ -31,7 +32,7 @@ def main() -> None:
     parser.add_argument("checkpoints", type=Path, nargs="+")
     parser.add_argument("--data", type=Path, required=True, help="folder of SOURCE.npz drawings")
     parser.add_argument("--traced", type=Path, help="held-out pages by training.routing.traced")
-    parser.add_argument("--out", type=Path, default=WEIGHTS)
+    parser.add_argument("--out", type=Path, default=shipped.FOLDER)
     args = parser.parse_args()
     net = load(*args.checkpoints)
     library = Library.load(args.data, held_out=True)
@@ -40,6 +41,7 @@ def main() -> None:
     args.out.mkdir(parents=True, exist_ok=True)
     (args.out / "routing.json").write_text(json.dumps(calibration, indent=1) + "\n")
     export(net, args.out / "routing.onnx")
+    digests.note(args.out / "routing.onnx")
 
 
 def load(*checkpoints: Path) -> RoutingNet:

@@ -28,6 +28,7 @@ from scipy.spatial import cKDTree
 from torch import nn
 
 from ...synthesis.composed_pages import Library, loosened
+from .. import digests
 from ..routing.labels import labelled, unowned
 from ..routing.traced import MOST_FALSE, look_ink, look_scan, on_canvas
 
@@ -58,6 +59,7 @@ def main() -> None:
     (args.run / "log.json").write_text(json.dumps(figures, indent=1), "utf-8")
     print(json.dumps(figures, indent=1))
     np.savez(args.out, **net)
+    digests.note(args.out)
 
 
 def gathered(path: Path, pages: int, jobs: int, work: tuple) -> tuple[Array, Array]:

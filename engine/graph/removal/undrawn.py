@@ -8,13 +8,14 @@ branch how probable it is that no stroke made it.
 
 from __future__ import annotations
 
+import io
 from collections.abc import Mapping
 from functools import cache
-from pathlib import Path
 
 import cv2
 import numpy as np
 
+from ... import weights
 from ...arrays.sampling import sample
 from ...values import LineMaps, PlanarGraph
 from ..continuations import pairs_within
@@ -23,7 +24,7 @@ from .spurs import seen_near
 
 Array = np.ndarray
 
-WEIGHTS = Path(__file__).resolve().parents[2] / "weights" / "undrawn.npz"
+WEIGHTS = weights.FOLDER / "undrawn.npz"
 SURE = 0.5  # probability from which on a branch goes
 FEATURES = 11 + 2 * 11  # of a branch: its own, and those of its two ends
 _LOOK = 6  # points of a branch that tell its direction
@@ -41,6 +42,9 @@ def drop_undrawn(graph: PlanarGraph, value: Array, maps: LineMaps, pen_width: fl
         value: (H, W) the smoothed centerline map.
         maps: what the centerline provider saw.
         pen_width: typical width of a line, px.
+
+    Raises:
+        InvoluteError: the weights are damaged.
     """
     needed = (maps.junctions, maps.endpoints, maps.half_width, maps.solid)
     unseen = any(seen is None for seen in needed)
@@ -64,7 +68,7 @@ def probability(rows: Array, net: Mapping[str, Array] | None = None) -> Array:
 
 @cache
 def _net() -> dict[str, Array]:
-    with np.load(WEIGHTS) as file:
+    with np.load(io.BytesIO(weights.read(WEIGHTS))) as file:
         return {name: file[name].astype(np.float64) for name in file.files}
 
 
