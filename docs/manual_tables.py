@@ -1,4 +1,4 @@
-"""Writes the tables of the manual that follow from the code: `python docs/tables.py`."""
+"""Writes the tables of the manual that follow from the code: `python docs/manual_tables.py`."""
 
 from __future__ import annotations
 
