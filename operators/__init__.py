@@ -46,8 +46,8 @@ def register() -> None:
     import bpy
 
     from . import blender_command
-    from .view import view_state
     from .tracing import trace_settings
+    from .view import view_state
 
     for cls in _classes():
         bpy.utils.register_class(cls)
