@@ -60,4 +60,5 @@ def engine_settings(source: TraceSettings) -> Settings:
 
 
 def scene_settings(scene: bpy.types.Scene) -> INVOLUTE_PG_trace_settings:
+    """What the sidebar shows."""
     return scene.involute
