@@ -39,7 +39,8 @@ def uv() -> str:
         SystemExit: it can't be had.
     """
     own = str(HOME / _BIN / f"uv{_EXE}")
-    for found in (os.environ.get("UV"), shutil.which("uv"), own):
+    for name in (os.environ.get("UV") or "uv", "uv", own):
+        found = shutil.which(name)
         if found and _runs(found):
             return found
     try:

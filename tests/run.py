@@ -7,7 +7,7 @@
     5.2     bpy 5.2 on Python 3.13: the same extension
     torch   training tests, in an environment made by plain pip from training/requirements.txt
 
-The environments are made when missing, in .venv-NAME. Standard library only.
+The environments are made when missing, in .venv-NAME.
 """
 
 from __future__ import annotations
