@@ -14,8 +14,8 @@ if TYPE_CHECKING:
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run the command line; see `engine.cli.main`."""
-    from .engine import cli
+    """Run the command line; see `command.cli.main`."""
+    from .command import cli
 
     return cli.main(
         argv,

@@ -78,7 +78,7 @@ class Drawing:
             aligned=scan.aligned,
         )
         if settings.regions and scan.color is not None:
-            from .region_colors import region_colors
+            from .fills.region_colors import region_colors
 
             colors = region_colors(drawing.regions, graph, scan)
             drawing = replace(drawing, region_colors=colors)
@@ -114,7 +114,7 @@ class Drawing:
     @cached_property
     def regions(self) -> tuple[Fill, ...]:
         """The closed regions between the lines, the largest first; specks are left out."""
-        from .faces import closed_regions
+        from .fills.faces import closed_regions
 
         if self.graph.branch_count == 0:
             return ()

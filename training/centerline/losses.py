@@ -8,8 +8,8 @@ import torch
 from torch import Tensor
 from torch.nn import functional
 
-from .model import HEADS
 from .targets import MAX_HALF_WIDTH
+from .unet import HEADS
 
 
 def paper_loss(raw: Tensor, truth: Tensor) -> Tensor:

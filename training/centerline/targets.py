@@ -6,11 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 import shapely
-from involute.engine.centerline.network import HALF_WIDTH_UNIT
+from involute.engine.centerline.learned import HALF_WIDTH_UNIT
 from scipy.spatial import cKDTree
 
-from .geometry import Array
-from .media import STEP, Samples, nearest
+from ...synthesis.line_art import Array
+from ...synthesis.media import STEP, Samples, nearest
 
 RIDGE_SIGMA = 0.8  # px; a ridge about 2 px wide keeps a valley between lines 3 px apart
 SPOT_SIGMA = 1.5  # px, of a junction or an endpoint

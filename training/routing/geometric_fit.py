@@ -1,7 +1,9 @@
 """Fit the weights of `engine/routing/geometric.py` to the true strokes of drawings.
 
     python -m involute.training.routing.traced --data FOLDER --out traced.npz --pages 110
-    python -m involute.training.routing.geometric_fit --data FOLDER --traced traced.npz
+    python -m involute.training.routing.traced --data FOLDER --out held.npz --pages 40 --held-out
+    python -m involute.training.routing.geometric_fit --data FOLDER --traced traced.npz \\
+        --traced-held-out held.npz
 
 The weights maximise the likelihood of the true involution of every junction among all involutions
 of its half-branches (a log-linear model, so that the optimum is unique). The examples are perfect
@@ -19,14 +21,15 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+from involute.engine.routing.candidates import by_degree, candidate_pairs, pair_starts
 from involute.engine.routing.features import FEATURES, pair_features
-from involute.engine.routing.halves import by_degree, candidate_pairs, pair_starts
-from involute.engine.routing.matching import pair_matrix
+from involute.engine.routing.involution import pair_matrix
 from involute.engine.values import PlanarGraph
 from scipy.optimize import minimize
 
+from ...synthesis.library import DrawingSet, read_sets
+from ...synthesis.true_graph import graph_from_strokes
 from . import traced
-from .planar import graph_from_strokes
 
 Array = np.ndarray
 # Per number of half-branches: features (n, P, F), the true involution (n,), weight (n,).
@@ -46,7 +49,6 @@ SETS = {
     "fishdraw": (6, 0.3),
 }
 TRACED = 8.0  # how much traced pages count
-HELD_OUT = 4  # every fourth drawing is for judging
 PEN = (1.7, 5.0)  # px
 MAX_DEGREE = 8
 MOST_JUNCTIONS = 120  # of one drawing that count fully
@@ -55,13 +57,10 @@ RIDGE = 1e-4
 GIVEN = {"width": -1.5, "strength": -1.0, "tint": -6.0}
 
 
-def drawings(path: Path, count: int) -> Iterator[list[Array]]:
-    """The first drawings of a set, each a list of (N, 2) strokes in px."""
-    data = np.load(path)
-    points = data["points"].astype(np.float32) * float(data["scale"])
-    stroke, drawing = data["stroke_offsets"], data["drawing_offsets"]
-    for d in range(min(count, len(drawing) - 1)):
-        yield [points[stroke[k] : stroke[k + 1]] for k in range(drawing[d], drawing[d + 1])]
+def drawings(drawn: DrawingSet, count: int) -> Iterator[tuple[bool, list[Array]]]:
+    """The first drawings of a set: whether it is held out, and its (N, 2) strokes in px."""
+    for number in range(min(count, len(drawn))):
+        yield bool(drawn.held_out[number]), drawn.strokes(number)
 
 
 def roughened(graph: PlanarGraph, rng: np.random.Generator) -> PlanarGraph:
@@ -81,22 +80,23 @@ def roughened(graph: PlanarGraph, rng: np.random.Generator) -> PlanarGraph:
 
 
 def examples(
-    data: Path, traced_pages: Path | None, rng: np.random.Generator
+    data: Path, traced_pages: Path | None, traced_held_out: Path | None, rng: np.random.Generator
 ) -> tuple[Examples, dict[str, Examples]]:
     """Examples for fitting, and for judging those of each set."""
     fit: dict[int, list] = defaultdict(list)
     judge: dict[str, Examples] = {}
-    for name, (count, share) in SETS.items():
+    for name, drawn in read_sets(data, SETS).items():
+        count, share = SETS[name]
         held: dict[int, list] = defaultdict(list)
         learnt: dict[int, list] = defaultdict(list)
-        for number, strokes in enumerate(drawings(data / f"{name}.npz", count)):
+        for held_out, strokes in drawings(drawn, count):
             pen = float(np.exp(rng.uniform(*np.log(PEN))))
             graph, partner = graph_from_strokes(
                 strokes, merge=max(1.0, 0.35 * pen), widths=[pen] * len(strokes)
             )
             if not 0 < len(graph.junctions) <= 1500:
                 continue
-            if number % HELD_OUT == 0:
+            if held_out:
                 _collect(held, graph, partner)
             else:
                 _collect(learnt, graph, partner)
@@ -105,13 +105,19 @@ def examples(
         judge[name] = _joined(held)
         print(f"{name}: {sum(len(v[1]) for v in judge[name].values())} junctions held out")
     if traced_pages:
-        learnt, held = defaultdict(list), defaultdict(list)
-        for number, page in enumerate(traced.load(traced_pages)):
-            if len(page.graph.junctions):
-                _collect(held if number % HELD_OUT == 0 else learnt, page.graph, page.partner)
-        _add(fit, learnt, TRACED)
-        judge["traced"] = _joined(held)
+        _add(fit, _traced(traced_pages), TRACED)
+    if traced_held_out:
+        judge["traced"] = _joined(_traced(traced_held_out))
     return _joined(fit), judge
+
+
+def _traced(path: Path) -> dict[int, list]:
+    """Examples of the pages in a file by `traced`."""
+    found: dict[int, list] = defaultdict(list)
+    for page in traced.load(path):
+        if len(page.graph.junctions):
+            _collect(found, page.graph, page.partner)
+    return found
 
 
 def _add(fit: dict[int, list], learnt: dict[int, list], share: float) -> None:
@@ -190,9 +196,12 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--data", type=Path, required=True, help="folder with the .npz sets")
     parser.add_argument("--traced", type=Path, help="pages that traced.py made")
+    parser.add_argument("--traced-held-out", type=Path, help="the same with its --held-out")
     parser.add_argument("--seed", type=int, default=0)
     args = parser.parse_args()
-    learnt, judged = examples(args.data, args.traced, np.random.default_rng(args.seed))
+    learnt, judged = examples(
+        args.data, args.traced, args.traced_held_out, np.random.default_rng(args.seed)
+    )
     weights = fit(learnt)
     for name, data in judged.items():
         report(name, data, weights)
