@@ -13,14 +13,15 @@ import sys
 import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import closing
-from dataclasses import Field, fields, replace
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, get_args, get_origin, get_type_hints
+from typing import TYPE_CHECKING, Any
 
 from ..engine.errors import InvoluteError
-from ..engine.settings import Settings
+from ..engine.settings import ABOUT, DEFAULTS, Settings
 from . import batch, planning
 from . import sequence_command as sequence
+from .setting_options import option
 
 if TYPE_CHECKING:
     from ..engine.drawing import Drawing
@@ -29,23 +30,6 @@ Writer = Callable[[Sequence[tuple[str, "Drawing"]], Path], None]
 Evaluate = Callable[[Path, Path], Mapping[str, float]]
 
 DONE, FAILED, WRONG_USAGE, STOPPED = 0, 1, 2, 130
-
-_HELP = {
-    "polarity": "which side is ink: dark lines on light, light lines on dark, or look",
-    "pen_width": "typical width of a line in px; 0 = measure it",
-    "provider": "what finds the centre of the lines; 'given' = the input already is such an image",
-    "solids": "trace solid black areas as lines too, instead of making them fills",
-    "inks": "make all strokes black instead of the colour of their ink",
-    "ignore_inks": "inks that are not traced, such as blue or blue,gray",
-    "marks": "trace scan borders, punched holes and registration marks too",
-    "regions": "fill the closed regions between the lines, in the colour that the page has there",
-    "min_length": "drop strokes shorter than this many pen widths; up to twice that on other lines",
-    "smoothing": "0 keeps every wobble, 1 is very smooth",
-    "router": "what decides how strokes run through junctions",
-    "tolerance": "how far a simplified stroke may stray from the traced line, in px",
-    "curve": "what the strokes are made of",
-    "device": "where the networks run",
-}
 
 
 def main(
@@ -188,24 +172,23 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _add_settings(parser: argparse.ArgumentParser) -> None:
-    """One option for every setting."""
+    """One option for every setting that can be typed."""
     group = parser.add_argument_group("settings")
-    types = get_type_hints(Settings)
-    for setting in _optional():
-        option, text = setting.name.replace("_", "-"), _HELP[setting.name]
-        if types[setting.name] is bool:
-            name = f"--no-{option}" if setting.default else f"--{option}"
-            does = "store_false" if setting.default else "store_true"
-            group.add_argument(name, dest=setting.name, action=does, help=text)
+    for name, about in ABOUT.items():
+        default, text = DEFAULTS[name], (about.tip[0].lower() + about.tip[1:]).replace("%", "%%")
+        if about.kind is bool:
+            does, text = ("store_false", about.off) if default else ("store_true", text)
+            group.add_argument(option(name), dest=name, action=does, help=text)
             continue
-        kind: dict[str, Any] = {"type": float, "metavar": "X"}
-        if get_origin(types[setting.name]) is Literal:
-            kind = {"choices": get_args(types[setting.name])}
-        elif get_origin(types[setting.name]) is tuple:
+        kind: dict[str, Any] = {"type": about.kind, "metavar": "X"}
+        if about.kind is tuple:
             kind = {"type": _names, "metavar": "LIST"}
-        if setting.default != ():
+            text += f" (such as {','.join(about.values[:2])}); of {', '.join(about.values)}"
+        elif about.choices:
+            kind = {"choices": about.values}
+        if default != ():
             text += " (default: %(default)s)"
-        group.add_argument(f"--{option}", default=setting.default, help=text, **kind)
+        group.add_argument(option(name), default=default, help=text, **kind)
     group.add_argument(
         "--centerline",
         dest="provider",
@@ -213,10 +196,6 @@ def _add_settings(parser: argparse.ArgumentParser) -> None:
         const="given",
         help="the input is a centerline image, white on black; the same as --provider given",
     )
-
-
-def _optional() -> list[Field[Any]]:
-    return [setting for setting in fields(Settings) if setting.name in _HELP]
 
 
 def _names(text: str) -> tuple[str, ...]:
@@ -231,7 +210,7 @@ def _count(text: str) -> int:
 
 def _settings(options: argparse.Namespace) -> Settings:
     try:
-        return Settings(**{setting.name: getattr(options, setting.name) for setting in _optional()})
+        return Settings(**{name: getattr(options, name) for name in ABOUT})
     except InvoluteError as error:
         raise _UsageError(str(error)) from None
 

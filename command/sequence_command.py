@@ -14,6 +14,7 @@ from ..engine.formats.whole_file import whole_file
 from ..engine.sequence.frames import Frame, FrameRange, number_frames, number_pages
 from ..engine.settings import Settings
 from . import batch, planning
+from .setting_options import settings_options
 
 if TYPE_CHECKING:
     from ..engine.drawing import Drawing
@@ -76,7 +77,7 @@ def write_farm_job(options: argparse.Namespace, settings: Settings) -> Path:
     from . import farm
 
     frames = find_frames([options.images], options.start, options.step, options.frames)
-    words = farm.settings_options(settings)
+    words = settings_options(settings)
     words += [] if options.start is None else ["--start", str(options.start)]
     words += [] if options.step == 1 else ["--step", str(options.step)]
     words += ["--align"] * options.align + ["--no-follow"] * (not options.follow)

@@ -20,9 +20,11 @@ def run(argv: list[str]) -> int:
 
 
 def register() -> None:
+    """Make `blender --command involute` known."""
     global _handle
     _handle = bpy.utils.register_cli_command("involute", run)
 
 
 def unregister() -> None:
+    """Forget it again."""
     bpy.utils.unregister_cli_command(_handle)
