@@ -49,10 +49,11 @@ def _run(options: argparse.Namespace) -> int:
     arguments = options.rest[len(names) :]
     faults = 0
     for name in names:
+        commit = run_record.commit()  # before: somebody may work on while it runs
         figures = RUNS[name](arguments)
         if figures is None:
             continue  # a picture
-        record = run_record.Record.of(name, arguments, figures)
+        record = run_record.Record.of(name, arguments, figures, commit)
         print(f"\n{name}: kept in {record.append()}", file=sys.stderr)
         faults += sum(row.get("faults", 0) > 0 for row in figures.values())
     return 1 if faults else 0

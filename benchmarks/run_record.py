@@ -43,14 +43,15 @@ class Record:
     figures: dict[str, dict[str, float]]
 
     @staticmethod
-    def of(run: str, arguments: Sequence[str], figures: Figures) -> Record:
-        """A record of now, here."""
+    def of(run: str, arguments: Sequence[str], figures: Figures, at: str | None = None) -> Record:
+        """A record of now, here; at: the commit when the run began, if that is not now."""
         rows = {
             row: {name: rounded(value) for name, value in columns.items()}
             for row, columns in figures.items()
         }
         now = datetime.now(UTC).isoformat(timespec="minutes")
-        return Record(run, now, commit(), weights_digest(), machine(), list(arguments), rows)
+        at = commit() if at is None else at
+        return Record(run, now, at, weights_digest(), machine(), list(arguments), rows)
 
     def append(self, folder: Path = RESULTS) -> Path:
         """Write the record below the others of its run."""
