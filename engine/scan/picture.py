@@ -12,16 +12,22 @@ import cv2
 import numpy as np
 
 from ..errors import InvoluteError
+from ..settings import Polarity
 from ..values import Array
 from .image_file import read_image
 
 Source = str | PathLike[str] | np.ndarray
 
 MIN_SIDE, MAX_SIDE = 16, 20_000  # px
+_DARKEST, _LIGHT = 0.02, 0.5  # the darkest 2 % of the opaque pixels are lighter than half of white
 
 
-def checked_picture(source: Source, page: int) -> Array:
-    """An (H, W) or (H, W, 3) RGB array over white, uint8, uint16 or float32 in [0, 1]."""
+def checked_picture(source: Source, page: int, polarity: Polarity = "auto") -> Array:
+    """An (H, W) or (H, W, 3) RGB array, uint8, uint16 or float32 in [0, 1].
+
+    What is transparent becomes white; black when the lines are light, by `polarity` or "auto", by
+    the picture itself.
+    """
     if isinstance(source, np.ndarray):
         picture, name = source, "The array"
     else:
@@ -59,20 +65,34 @@ def checked_picture(source: Source, page: int) -> Array:
             f"Can't trace values of type {picture.dtype}; give uint8, uint16 or float in [0, 1]."
         )
     if picture.ndim == 3 and picture.shape[2] == 4:
-        picture = _over_white(picture)
+        picture = _over_ground(picture, polarity)
     step = max(1, max(height, width) // 2048)
     if picture.ndim == 3 and not np.ptp(picture[::step, ::step], axis=2).any():
         picture = picture[..., 1]  # a grey page saved as colour
     return np.ascontiguousarray(picture)
 
 
-def _over_white(picture: Array) -> Array:
+def _over_ground(picture: Array, polarity: Polarity) -> Array:
+    """An RGBA picture over white; over black when nothing on it is dark: white lines show there."""
     top = white_of(picture)
+    light = polarity == "light" or (polarity == "auto" and _is_light(picture))
+    ground = 0.0 if light else top
     out = np.empty((*picture.shape[:2], 3), picture.dtype)
     for rows in row_strips(picture):
         alpha = picture[rows, :, 3:].astype(np.float32) / top
-        out[rows] = picture[rows, :, :3] * alpha + top * (1 - alpha) + (0.5 if top > 1 else 0)
+        out[rows] = picture[rows, :, :3] * alpha + ground * (1 - alpha) + (0.5 if top > 1 else 0)
     return out
+
+
+def _is_light(picture: Array) -> bool:
+    """Whether an RGBA picture has ink, and none of it is dark."""
+    step = max(1, max(picture.shape[:2]) // 1024)
+    small = np.ascontiguousarray(picture[::step, ::step])
+    opaque = small[..., 3] > 0.5 * white_of(picture)
+    if opaque.all() or not opaque.any():
+        return False
+    gray = darkest_gray(np.ascontiguousarray(small[..., :3]))[opaque]
+    return float(np.quantile(gray, _DARKEST)) > _LIGHT * white_of(picture)
 
 
 def darkest_gray(picture: Array) -> Array:

@@ -10,6 +10,8 @@ from ..settings import Settings
 from ..values import Array
 from .picture import as_bytes, darkest_gray, row_strips, white_of
 
+_ODD = 2.0  # times more light than dark on a light page, before it counts as light on dark
+
 
 def is_light_on_dark(picture: Array, settings: Settings) -> bool:
     """Whether the lines are lighter than what is around them."""
@@ -23,11 +25,17 @@ def is_light_on_dark(picture: Array, settings: Settings) -> bool:
             "The picture is black all over; scan the page again, or choose polarity 'light' if "
             "it is an empty blackboard."
         )
-    # The median is the paper wherever lines cover less than half of the surroundings.
+    # The median is the paper wherever lines cover less than half of the surroundings. Mirrored at
+    # the picture's edge: OpenCV would repeat the edge, and a line there would be the paper.
     reach = min(255, min(small.shape) // 2 | 1)
-    away = small.astype(np.int16) - cv2.medianBlur(small, reach)
+    margin = reach // 2
+    around = cv2.copyMakeBorder(small, *4 * [margin], cv2.BORDER_REFLECT)
+    paper = cv2.medianBlur(around, reach)[margin:-margin, margin:-margin]
+    away = small.astype(np.int16) - paper
     grain = 3 * float(np.median(np.abs(away))) + 8
-    return bool(np.maximum(away - grain, 0).sum() > np.maximum(-away - grain, 0).sum())
+    light, dark = (np.maximum(side - grain, 0).sum(dtype=np.int64) for side in (away, -away))
+    # White on light paper would be odd: grain alone, as much of it either way, doesn't make it so.
+    return bool(light > (_ODD if np.median(paper) > 127 else 1.0) * dark)
 
 
 def with_lightness_inverted(picture: Array) -> Array:

@@ -44,7 +44,7 @@ def read_scan(source: Source, settings: Settings, page: int = 0) -> Scan:
     Raises:
         InvoluteError: the picture can't be read, or is black all over.
     """
-    picture = checked_picture(source, page)
+    picture = checked_picture(source, page, settings.polarity)
     height, width = picture.shape[:2]
     if settings.provider == "given":
         luma = cv2.cvtColor(picture, cv2.COLOR_RGB2GRAY) if picture.ndim == 3 else picture
