@@ -12,7 +12,6 @@ import cv2
 import numpy as np
 
 from ..errors import InvoluteError
-from ..settings import Polarity
 from ..values import Array
 from .image_file import read_image
 
@@ -22,7 +21,7 @@ MIN_SIDE, MAX_SIDE = 16, 20_000  # px
 _DARKEST, _LIGHT = 0.02, 0.5  # the darkest 2 % of the opaque pixels are lighter than half of white
 
 
-def checked_picture(source: Source, page: int, polarity: Polarity = "auto") -> Array:
+def checked_picture(source: Source, page: int, polarity: str = "auto") -> Array:
     """An (H, W) or (H, W, 3) RGB array, uint8, uint16 or float32 in [0, 1].
 
     What is transparent becomes white; black when the lines are light, by `polarity` or "auto", by
@@ -72,7 +71,7 @@ def checked_picture(source: Source, page: int, polarity: Polarity = "auto") -> A
     return np.ascontiguousarray(picture)
 
 
-def _over_ground(picture: Array, polarity: Polarity) -> Array:
+def _over_ground(picture: Array, polarity: str) -> Array:
     """An RGBA picture over white; over black when nothing on it is dark: white lines show there."""
     top = white_of(picture)
     light = polarity == "light" or (polarity == "auto" and _is_light(picture))
