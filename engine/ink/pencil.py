@@ -11,9 +11,6 @@ from .two_strengths import split_strengths
 Array = np.ndarray
 
 _SOFT = 0.8  # px; how far a scanner spreads the ink of a line
-_FAINTER = 0.65  # of the ink's strength: what pencil under it is at most
-_BETWEEN = (0.2, 0.7)  # of the lines, how much may be neither: 0.2 for each 1 below 0.7 of the ink
-_LEAST = 0.1  # of the lines: what pencil, or ink, must have; less may be dirt, or badly printed
 _INNER = 0.2  # of a branch at either end: other lines are near
 
 
@@ -43,11 +40,7 @@ def pencil(graph: PlanarGraph, chosen: Array, length: Array) -> tuple[Array, flo
         return found, 1.0
     strength = _of_branches(graph)
     split = split_strengths(strength[chosen], length[chosen] + 1e-6)
-    if split is None or not (
-        split.faint < _FAINTER * split.strong
-        and split.between < _BETWEEN[0] * (_BETWEEN[1] - split.faint / split.strong)
-        and split.share > _LEAST
-    ):
+    if split is None:
         return found, 1.0
     return chosen & (strength <= split.level), split.faint / split.strong
 

@@ -31,8 +31,6 @@ _MEANT = {
 _FAINT = 0.06  # mean density below which a pixel is paper
 _NEAR = np.radians(60)  # an ink farther than this round the colour circle is not the one meant
 _SMALLEST = 0.03  # of the coloured pixels: what an ink of its own must have
-_FAINTER = 0.68  # of the ink's darkness: what a pencil under ink is at most
-_BETWEEN = 0.08  # of the inked pixels: how many may be neither pencil nor ink
 
 
 def without_inks(scan: Scan, settings: Settings) -> Scan:
@@ -132,7 +130,7 @@ def _kept_beside_pencil(ink: Array, pen_width: float) -> Array:
         return np.ones_like(ink)
     count = np.bincount(np.uint8(np.round(lines * 255)), minlength=256)
     split = split_strengths(np.flatnonzero(count) / 255, count[count > 0])
-    if split is None or split.faint > _FAINTER * split.strong or split.between > _BETWEEN:
+    if split is None:
         return np.ones_like(ink)
     strong = strength > split.level
     return (strong & ~_touching_specks(strong, strength, reach)).astype(np.float32)
