@@ -18,7 +18,8 @@ import numpy as np
 from involute.engine.centerline import provider_for
 from involute.engine.fills.solids import split_solids
 from involute.engine.graph import build_graph, measure, sweep
-from involute.engine.scan.preparing import MIN_SIDE, read_scan
+from involute.engine.scan.picture import MIN_SIDE
+from involute.engine.scan.preparing import read_scan
 from involute.engine.settings import Settings
 from involute.engine.values import LineMaps, PlanarGraph, Scan
 from involute.synthesis.composed_pages import Library, loosened
