@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..engine.errors import InvoluteError
+from ..engine.formats import FORMATS, Format, either
 from ..engine.settings import ABOUT, DEFAULTS, Settings
 from . import batch, planning
 from . import sequence_command as sequence
@@ -26,7 +27,6 @@ from .setting_options import option
 if TYPE_CHECKING:
     from ..engine.drawing import Drawing
 
-Writer = Callable[[Sequence[tuple[str, "Drawing"]], Path], None]
 Evaluate = Callable[[Path, Path], Mapping[str, float]]
 
 DONE, FAILED, WRONG_USAGE, STOPPED = 0, 1, 2, 130
@@ -34,30 +34,29 @@ DONE, FAILED, WRONG_USAGE, STOPPED = 0, 1, 2, 130
 
 def main(
     argv: Sequence[str] | None = None,
-    writers: Mapping[str, Writer] | None = None,
+    formats: Sequence[Format] = (),
     evaluate: Evaluate | None = None,
-    sequence_writers: Mapping[str, sequence.Writer] | None = None,
 ) -> int:
     """Run the command line.
 
     Args:
         argv: the arguments, without the program's name; None = those of this process.
-        writers: suffix -> function that writes (name, drawing) pairs to one file of that format.
+        formats: what drawings can be written to, besides the engine's own formats.
         evaluate: function that compares two SVG files, for `involute evaluate`.
-        sequence_writers: the same as writers, for the (frame, drawing) pairs of a sequence.
 
     Returns:
         0 when all went well, 1 when something failed, 2 for wrong usage, 130 after Ctrl-C.
     """
+    known = (*FORMATS, *formats)
     try:
-        options = _parser().parse_args(argv)
+        options = _parser(known).parse_args(argv)
     except SystemExit as stop:  # argparse has said why
         return int(stop.code or 0)
     try:
         if options.command == "trace" and (options.sequence or options.parts):
-            return _trace_sequence(options, sequence_writers or {})
+            return _trace_sequence(options, known)
         if options.command == "trace":
-            return _trace(options, writers or {})
+            return _trace(options, known)
         if options.command == "farm-job":
             print(sequence.write_farm_job(options, _settings(options)))
             return DONE
@@ -87,7 +86,7 @@ def _say(sentence: str, code: int) -> int:
 # --- what can be asked -----------------------------------------------------------------------
 
 
-def _parser() -> argparse.ArgumentParser:
+def _parser(formats: Sequence[Format] = FORMATS) -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="involute", description="Turn scanned line drawings into editable strokes."
     )
@@ -104,10 +103,13 @@ def _parser() -> argparse.ArgumentParser:
         "-o",
         "--output",
         metavar="OUT",
-        help="a file that ends in .svg, .json, .png or .blend, or a folder",
+        help=f"a file that ends in {either(f.suffix for f in formats)}, or a folder",
     )
     trace.add_argument(
-        "--format", metavar="LIST", help="formats for a folder, such as svg,json (default: svg)"
+        "--format",
+        metavar="LIST",
+        help=f"formats for a folder, such as svg,json (default: {formats[0].name}); "
+        + "; ".join(f"{f.name}: {f.about}" for f in formats),
     )
     trace.add_argument("--report", metavar="FILE", help="write times and counts as JSON")
     trace.add_argument("--overwrite", action="store_true", help="replace outputs that exist")
@@ -218,19 +220,16 @@ def _settings(options: argparse.Namespace) -> Settings:
 # --- trace -----------------------------------------------------------------------------------
 
 
-def _trace(options: argparse.Namespace, writers: Mapping[str, Writer]) -> int:
+def _trace(options: argparse.Namespace, formats: Sequence[Format]) -> int:
     settings = _settings(options)
     if not options.output:
         raise _UsageError("Say where the drawings go with -o.")
     if options.start is not None or options.step != 1 or options.align or not options.follow:
         raise _UsageError("--start, --step, --align and --no-follow need --sequence.")
     try:
-        target = planning.target(options.output, options.format)
+        target = planning.target(options.output, options.format, formats)
     except InvoluteError as error:
         raise _UsageError(str(error)) from None
-    for suffix in target.suffixes:
-        if suffix == ".blend" and suffix not in writers:
-            raise InvoluteError("Writing .blend needs Blender; install the extra 'blender'.")
 
     failures: dict[str, str] = {}
     sources = []
@@ -252,6 +251,7 @@ def _trace(options: argparse.Namespace, writers: Mapping[str, Writer]) -> int:
     elif not target.path.parent.is_dir():
         raise InvoluteError(f"Can't write {target.path}: its folder doesn't exist; make it first.")
 
+    writers = {f.suffix: f.write_many for f in target.formats if f.write_many}
     outcomes = _run(pages, settings, options, writers) if pages else {}
     failed = [page for page, outcome in outcomes.items() if outcome.error]
     if options.report:
@@ -289,7 +289,7 @@ def _run(
     pages: Sequence[planning.Page],
     settings: Settings,
     options: argparse.Namespace,
-    writers: Mapping[str, Writer],
+    writers: Mapping[str, Callable[..., None]],
 ) -> dict[planning.Page, batch.Outcome]:
     """Trace the pages; a drawing for a format of `writers` waits as JSON until all are traced."""
     with tempfile.TemporaryDirectory(prefix="involute-") as folder:
@@ -324,7 +324,7 @@ def _run(
 def _write_waiting(
     waiting: Mapping[planning.Page, Path],
     outcomes: Mapping[planning.Page, batch.Outcome],
-    writers: Mapping[str, Writer],
+    writers: Mapping[str, Callable[..., None]],
 ) -> dict[planning.Page, str]:
     """Hand the drawings to the extra writers, all that go to one file together.
 
@@ -417,10 +417,10 @@ class _Bar:
             self._bar.update(self._finished + fraction - self._bar.n)
 
 
-def _trace_sequence(options: argparse.Namespace, writers: Mapping[str, sequence.Writer]) -> int:
+def _trace_sequence(options: argparse.Namespace, formats: Sequence[Format]) -> int:
     settings = _settings(options)
     try:
-        plan = sequence.plan(options, settings, writers)
+        plan = sequence.plan(options, settings, formats)
     except InvoluteError as error:
         raise _UsageError(str(error)) from None
     with _Bar(len(plan.frames)) as bar:
@@ -430,7 +430,7 @@ def _trace_sequence(options: argparse.Namespace, writers: Mapping[str, sequence.
             if outcome.error:
                 bar.say(f"{Path(frame.path).name}: {outcome.error}")
 
-        result = sequence.run(plan, writers, progress)
+        result = sequence.run(plan, progress)
     if result.warning:
         _say(f"warning: {result.warning}", DONE)
     if options.report:

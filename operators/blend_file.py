@@ -10,6 +10,8 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ..engine.formats import Format
+
 if TYPE_CHECKING:
     import bpy
 
@@ -156,3 +158,11 @@ def _frame_size(render: object, size: tuple[int, int]) -> None:
 def _reason(error: RuntimeError) -> str:
     text = str(error).strip().splitlines()
     return (text[-1] if text else "unknown reason").removeprefix("Error: ").rstrip(".") + "."
+
+
+BLEND = Format(
+    suffix=".blend",
+    about="Grease Pencil strokes in a Blender file; holds many drawings, and sequences",
+    write_many=write,
+    write_sequence=write_sequence,
+)

@@ -60,10 +60,10 @@ def test_help_names_every_option_and_ink(capsys):
 
 
 def test_the_manual_has_the_settings_as_they_are():
-    spec = importlib.util.spec_from_file_location("manual_tables", DOCS / "tables.py")
+    spec = importlib.util.spec_from_file_location("manual_tables", DOCS / "manual_tables.py")
     tables = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(tables)
     for page in (DOCS / "manual").glob("*.md"):
         text = page.read_text("utf-8")
-        assert tables.with_tables(text) == text, f"{page.name}: run python docs/tables.py"
+        assert tables.with_tables(text) == text, f"{page.name}: run python docs/manual_tables.py"
     assert "--pen-width" in (DOCS / "manual" / "settings.md").read_text("utf-8")

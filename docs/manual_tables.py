@@ -1,4 +1,4 @@
-"""Writes the tables of the manual that follow from the code: `python docs/tables.py`."""
+"""Writes the tables of the manual that follow from the code: `python docs/manual_tables.py`."""
 
 from __future__ import annotations
 
@@ -6,10 +6,20 @@ import re
 from pathlib import Path
 
 from involute.command.setting_options import manual_tables
+from involute.engine.formats import FORMATS
+from involute.operators.blend_file import BLEND
 
 MANUAL = Path(__file__).resolve().parent / "manual"
-TABLES = {"settings": manual_tables}
 _PLACE = re.compile(r"(<!-- table (\w+) -->\n).*?(\n<!-- end -->)", re.DOTALL)
+
+
+def formats() -> str:
+    """What drawings can be written to."""
+    rows = [f"| `{f.suffix}` | {f.about} |" for f in (*FORMATS, BLEND)]
+    return "\n".join(["| file | what it is |", "|---|---|", *rows])
+
+
+TABLES = {"settings": manual_tables, "formats": formats}
 
 
 def with_tables(text: str) -> str:
