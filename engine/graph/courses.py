@@ -14,6 +14,7 @@ import numpy as np
 
 from ..arrays.sampling import sample
 from ..values import PlanarGraph
+from .evidence import Evidence
 
 Array = np.ndarray
 
@@ -67,15 +68,15 @@ def spoilt(graph: PlanarGraph, shape: tuple[int, int], reach: float) -> Array:
     return found
 
 
-def read_halves(graph: PlanarGraph, value: Array, pen: float) -> Halves:
+def read_halves(graph: PlanarGraph, evidence: Evidence) -> Halves:
     """Where every half-branch leaves its blob, and its course from there on.
 
     Args:
         graph: the skeleton's graph, its points on the crest of the lines.
-        value: (H, W) the smoothed centerline map.
-        pen: width of the ridge, px.
+        evidence: its smoothed centerline map.
     """
-    dirty = spoilt(graph, value.shape, REACH * max(1.0, pen / 2))
+    value = evidence.value
+    dirty = spoilt(graph, value.shape, REACH * max(1.0, evidence.ridge_width / 2))
     starts, stops = graph.offsets[:-1].astype(np.int64), graph.offsets[1:].astype(np.int64) - 1
     index = np.arange(len(graph.points))
     usable = np.where(dirty, len(index), index)

@@ -11,7 +11,9 @@ from dataclasses import replace
 import numpy as np
 
 from ..arrays.sampling import sample
+from ..settings import Settings
 from ..values import PlanarGraph
+from .evidence import Evidence
 
 Array = np.ndarray
 
@@ -20,13 +22,13 @@ LEFT = 0.6
 _INSIDE = 8  # points of the branch that give its direction and its brightness
 
 
-def place_ends(graph: PlanarGraph, value: Array) -> PlanarGraph:
+def place_ends(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> PlanarGraph:
     """Move every free end along its line to where the line ends.
 
-    Args:
-        graph: points about 1 px apart.
-        value: (H, W) the smoothed centerline map.
+    Reads: the smoothed centerline map; points about 1 px apart.
+    Promises: points about 1 px apart but for the last ones.
     """
+    value = evidence.value
     counts = np.diff(graph.offsets)
     free = np.flatnonzero((graph.degrees[graph.half_vertex] == 1) & (np.repeat(counts, 2) > 3))
     if not len(free):

@@ -12,7 +12,9 @@ from dataclasses import replace
 import numpy as np
 
 from ..arrays.sampling import sample
+from ..settings import Settings
 from ..values import PlanarGraph
+from .evidence import Evidence
 from .nearby import near_pairs
 from .topology import lengths
 
@@ -25,17 +27,13 @@ STRAIGHT = np.cos(np.radians(35.0))  # how far two ends may turn to meet
 ASIDE = 0.35  # px to the side for every px of the gap, and half a px more
 
 
-def bridge(graph: PlanarGraph, value: Array, pen_width: float) -> PlanarGraph:
+def bridge_gaps(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> PlanarGraph:
     """Add a branch across every small gap between two free ends that run on into each other.
 
-    Args:
-        graph: points about 1 px apart.
-        value: (H, W) the smoothed centerline map.
-        pen_width: typical width of a line, px.
-
-    Returns:
-        The graph with more branches; the ends they link have degree two now.
+    Reads: the smoothed centerline map and the width of the pen; points about 1 px apart.
+    Promises: more branches, of two points each; the ends they link have degree two now.
     """
+    value, pen_width = evidence.value, evidence.pen_width
     free = np.flatnonzero(graph.degrees[graph.half_vertex] == 1)
     reach = max(LEAST, WIDEST * pen_width)
     tips, outward = _looks(graph, free)

@@ -13,10 +13,12 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays.sampling import sample
+from ..settings import Settings
 from ..values import PlanarGraph
 from .clusters import find_blobs
 from .continuations import SAMPLES, Continuations, best_pairing, extend, pairs_within
 from .courses import Halves, read_halves
+from .evidence import Evidence
 from .shared_ridges import told_apart
 from .topology import connected, join
 
@@ -29,23 +31,19 @@ STAR = 0.6  # px; how far beside their meeting point straight half-branches may 
 STRAY = 6.0  # px; a stem may miss the curve that it ends on by this much
 
 
-def resolve(graph: PlanarGraph, value: Array, pen: float) -> PlanarGraph:
+def resolve_junctions(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> PlanarGraph:
     """Move the junctions of a skeleton's graph to where its lines meet.
 
-    Args:
-        graph: the skeleton, its points on the crest of the lines.
-        value: (H, W) the smoothed centerline map.
-        pen: width of the ridge, px.
-
-    Returns:
-        The graph, its junctions in place; sharp bends are still vertices of degree two.
+    Reads: the smoothed centerline map; points on the crest of the lines.
+    Promises: junctions in their place; sharp bends are still vertices of degree two.
     """
     ring = graph.ends[graph.ends[:, 0] == graph.ends[:, 1], 0]
     active = graph.degrees >= 2
     active[ring] &= graph.degrees[ring] > 2
     if not active.any():
         return graph
-    half = read_halves(graph, value, pen)
+    value = evidence.value
+    half = read_halves(graph, evidence)
     fits = Continuations(half, value)
     blob, inner = find_blobs(graph, fits)
     return _rebuild(graph, half, fits, np.where(active, blob, -1), inner, value)

@@ -9,8 +9,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..settings import Settings
 from ..values import PlanarGraph
 from .courses import spoilt
+from .evidence import Evidence
 from .nearby import near_pairs
 from .topology import join
 
@@ -20,16 +22,15 @@ _SAME = 1.0  # px; a crossing this near to a vertex of both branches is that ver
 _WITHIN = 1e-4  # of a segment at its ends that count as outside
 
 
-def planarized(graph: PlanarGraph, shape: tuple[int, int]) -> PlanarGraph:
+def planarize(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> PlanarGraph:
     """The graph with a vertex wherever two of its branches cross.
 
-    Args:
-        graph: points at most about 1 px apart.
-        shape: (H, W) of the page.
+    Reads: the size of the page; points at most about 1 px apart.
+    Promises: planar, but for crossings a pixel beside a vertex that both branches share.
     """
     if graph.branch_count < 2:
         return graph
-    first, second, part, other, places = _crossings(graph, shape)
+    first, second, part, other, places = _crossings(graph, evidence.shape)
     if not len(places):
         return graph
     vertex = len(graph.vertices) + np.arange(len(places))

@@ -11,11 +11,32 @@ from dataclasses import replace
 
 import numpy as np
 
+from ..settings import Settings
 from ..values import PlanarGraph
+from .evidence import Evidence
 
 Array = np.ndarray
 
+ROUNDS = 10  # how often all points move with the strongest smoothing
 _PARABOLA = np.array([-3, 12, 17, 12, -3]) / 35
+
+
+def space_points(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> PlanarGraph:
+    """Even points along every branch.
+
+    Reads: nothing but the graph.
+    Promises: points 1 px apart.
+    """
+    return even(graph)
+
+
+def smooth_lines(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> PlanarGraph:
+    """Smooth every branch as much as the settings ask for; vertices stay.
+
+    Reads: Settings.smoothing.
+    Promises: points 1 px apart.
+    """
+    return even(smooth(even(graph), round(ROUNDS * settings.smoothing)))
 
 
 def even(graph: PlanarGraph, spacing: float = 1.0) -> PlanarGraph:

@@ -12,9 +12,11 @@ from dataclasses import replace
 
 import numpy as np
 
+from ..settings import Settings
 from ..values import PlanarGraph
 from .continuations import ALONE, Continuations
 from .courses import read_halves
+from .evidence import Evidence
 from .topology import lengths, select
 
 Array = np.ndarray
@@ -25,13 +27,11 @@ SMALL_RING = 40  # points
 LONGEST = 24.0  # px; stem of a V that is a tip
 
 
-def open_tips(graph: PlanarGraph, value: Array, pen: float) -> PlanarGraph:
+def open_tips(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> PlanarGraph:
     """Take away the stems of Vs: both lines really run on to the tip.
 
-    Args:
-        graph: the skeleton's graph.
-        value: (H, W) the smoothed centerline map.
-        pen: width of the ridge, px.
+    Reads: the smoothed centerline map; points on the crest of the lines.
+    Promises: tips are vertices of degree two, to be resolved like junctions.
     """
     vertex, degree = graph.half_vertex, graph.degrees
     long = np.repeat(lengths(graph), 2)
@@ -46,8 +46,8 @@ def open_tips(graph: PlanarGraph, value: Array, pen: float) -> PlanarGraph:
     order, start = graph.halves_at
     three = order[start[vertex[stem]][:, None] + np.arange(3)]
     arms = three[three != stem[:, None]].reshape(-1, 2)
-    half = read_halves(graph, value, pen)
-    fits = Continuations(half, value)
+    half = read_halves(graph, evidence)
+    fits = Continuations(half, evidence.value)
     along = np.maximum(*(fits.of(np.stack([arms[:, k], stem], -1)).cost for k in (0, 1)))
     across = fits.of(arms).cost
     # How long two lines overlap depends on how fast they part.
@@ -66,8 +66,12 @@ def open_tips(graph: PlanarGraph, value: Array, pen: float) -> PlanarGraph:
     return select(replace(graph, vertices=vertices, points=points), keep)
 
 
-def split_bends(graph: PlanarGraph) -> PlanarGraph:
-    """Cut branches where they bend sharply; the new vertices have degree two."""
+def split_bends(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> PlanarGraph:
+    """Cut branches where they bend sharply.
+
+    Reads: nothing but the graph; points about 1 px apart.
+    Promises: bends are vertices of degree two, to be resolved like junctions.
+    """
     points = graph.points.astype(np.float64)
     count = np.diff(graph.offsets)
     index = np.arange(len(points))

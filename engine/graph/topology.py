@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..settings import Settings
 from ..values import PlanarGraph
 from .chains import follow
+from .evidence import Evidence
 
 Array = np.ndarray
 
@@ -26,6 +28,15 @@ def select(graph: PlanarGraph, keep: Array) -> PlanarGraph:
         number[ends].astype(np.int32).reshape(-1, 2),
         *(None if values is None else values[stays] for values in measured),
     )
+
+
+def join_bends(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> PlanarGraph:
+    """Make one branch of those that meet at a bend or where a gap was bridged.
+
+    Reads: nothing but the graph.
+    Promises: vertices are ends, junctions, and one on every ring.
+    """
+    return join(graph)
 
 
 def join(graph: PlanarGraph, hold: Array | None = None) -> PlanarGraph:
@@ -60,23 +71,6 @@ def join(graph: PlanarGraph, hold: Array | None = None) -> PlanarGraph:
     return select(joined, np.ones(joined.branch_count, bool))
 
 
-def contract(graph: PlanarGraph, shortest: float) -> PlanarGraph:
-    """Make one vertex of those that branches shorter than `shortest` px link, and drop these."""
-    link = (lengths(graph) < shortest) & (graph.degrees[graph.ends] >= 3).all(1)
-    if not link.any():
-        return graph
-    label = connected(len(graph.vertices), graph.ends[link])
-    count = np.maximum(np.bincount(label, minlength=len(label)), 1)
-    vertices = np.stack(
-        [np.bincount(label, graph.vertices[:, k], len(label)) / count for k in (0, 1)], -1
-    ).astype(np.float32)
-    ends = label[graph.ends]
-    points = graph.points.copy()
-    points[graph.offsets[:-1]] = vertices[ends[:, 0]]
-    points[graph.offsets[1:] - 1] = vertices[ends[:, 1]]
-    return join(select(PlanarGraph(vertices, points, graph.offsets, ends), ~link))
-
-
 def connected(count: int, links: Array) -> Array:
     """(count,) int32: the smallest number that each number is linked to by (K, 2) links."""
     label = np.arange(count, dtype=np.int32)
@@ -103,3 +97,12 @@ def lengths(graph: PlanarGraph) -> Array:
 def means(graph: PlanarGraph, values: Array) -> Array:
     """(B,) the mean of (P,) values on each branch."""
     return np.add.reduceat(values.astype(np.float64), graph.offsets[:-1]) / np.diff(graph.offsets)
+
+
+def rank_at_vertex(vertex: Array, degree: Array, worth: Array) -> Array:
+    """(H,) how many half-branches at the same vertex are worth more."""
+    order = np.lexsort((-worth, vertex))
+    start = np.cumsum(degree) - degree
+    rank = np.empty(len(order), np.int64)
+    rank[order] = np.arange(len(order)) - start[vertex[order]]
+    return rank

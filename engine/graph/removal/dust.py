@@ -6,6 +6,7 @@ import numpy as np
 
 from ...settings import Settings
 from ...values import PlanarGraph
+from ..evidence import Evidence
 from ..topology import connected, lengths, means, select
 
 Array = np.ndarray
@@ -15,11 +16,14 @@ _FULL_INK = 80  # percentile of strength that counts as the full ink of the page
 _FAINT = 0.5  # share of the full ink below which a piece is as likely a scratch as a line
 
 
-def sweep(graph: PlanarGraph, settings: Settings) -> PlanarGraph:
+def remove_dust(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> PlanarGraph:
     """Drop every connected piece of a measured graph with too little ink to be a stroke.
 
     The fainter a piece is, beside the other lines of the page, the longer it must be: a pencil
     line is long, a scratch or a fold of the paper rarely is.
+
+    Reads: Settings.min_length; widths and strength.
+    Promises: the branches that are left are as they were, measures included.
     """
     if graph.branch_count == 0:
         return graph
