@@ -25,6 +25,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 from involute.engine import Settings
+from involute.engine.arrays.ragged import along, arc, offsets_of
 from involute.engine.centerline import provider_for
 from involute.engine.fills.solids import split_solids
 from involute.engine.graph import PASSES, Evidence, routed, run_passes
@@ -191,7 +192,7 @@ def skeleton_graph(maps: LineMaps) -> PlanarGraph:
     graph = PlanarGraph(
         found.nodes[used].astype(np.float32),
         np.concatenate(found.paths).astype(np.float32),
-        np.cumsum([0, *map(len, found.paths)]).astype(np.int32),
+        offsets_of([len(path) for path in found.paths]).astype(np.int32),
         ends.reshape(-1, 2).astype(np.int32),
     )
     return join(graph)
@@ -225,9 +226,8 @@ def dense_chamfer(one: Sequence[Array], two: Sequence[Array]) -> float:
 
 
 def _dense(line: Array) -> Array:
-    arc = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(line, axis=0).T))])
-    at = np.linspace(0, arc[-1], max(2, int(10 * arc[-1])))
-    return np.stack([np.interp(at, arc, v) for v in line.T], -1)
+    whole = arc(line)[-1]
+    return along(line, np.linspace(0, whole, max(2, int(10 * whole))))
 
 
 def growth() -> str:

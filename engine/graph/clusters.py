@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..arrays.ragged import ranges
 from ..values import PlanarGraph
 from .continuations import ALONE, Continuations, Fits, best_pairing, pairs_within
 from .topology import connected, lengths
@@ -80,12 +81,12 @@ def _best_mergers(
     which = candidates[row, column]
     size = begin[which + 1] - begin[which]
     owner = np.repeat(row, size)
-    slot = order[np.repeat(begin[which], size) + _count_up(size)]
+    slot = order[ranges(begin[which], size)]
     alone = np.unique(which)
     # The blobs on their own come after the candidates, to compare with.
     size = begin[alone + 1] - begin[alone]
     owner = np.concatenate([owner, len(candidates) + np.repeat(np.arange(len(alone)), size)])
-    slot = np.concatenate([slot, order[np.repeat(begin[alone], size) + _count_up(size)]])
+    slot = np.concatenate([slot, order[ranges(begin[alone], size)]])
 
     other = home[slot ^ 1]
     both = (candidates[np.minimum(owner, len(candidates) - 1)] == other[:, None]).any(1)
@@ -141,7 +142,7 @@ def _covered(
     order = np.argsort(used, kind="stable")
     begin = np.searchsorted(used[order], owner)
     size = np.searchsorted(used[order], owner, side="right") - begin
-    curve = chosen[order[np.repeat(begin, size) + _count_up(size)]]
+    curve = chosen[order[ranges(begin, size)]]
     first, last = graph.offsets[branch], graph.offsets[branch + 1] - 1
     place = np.rint(first[:, None] + (last - first)[:, None] * np.linspace(0.2, 0.8, 7))
     points = graph.points[place.astype(np.int64)].astype(np.float64)
@@ -150,8 +151,3 @@ def _covered(
     covered = np.zeros(len(branch), bool)
     covered[row[aside < ASIDE]] = True
     return covered
-
-
-def _count_up(size: Array) -> Array:
-    """0, 1, ... size[0] - 1, 0, 1, ... size[1] - 1, and so on."""
-    return np.arange(size.sum()) - np.repeat(np.cumsum(size) - size, size)

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arrays.ragged import owners
 from ..arrays.sampling import sample
 from ..values import PlanarGraph
 from .evidence import Evidence
@@ -45,9 +46,8 @@ class Halves:
 
 def spoilt(graph: PlanarGraph, shape: tuple[int, int], reach: float) -> Array:
     """(P,) bool: points nearer than `reach` px to a line that isn't their own course."""
-    counts = np.diff(graph.offsets)
     # A number per point that jumps between branches: far apart = not the same piece of line.
-    place = np.arange(len(graph.points)) + np.repeat(np.arange(len(counts)) * 64, counts) + 64
+    place = np.arange(len(graph.points)) + 64 * owners(graph.offsets) + 64
     margin = int(np.ceil(reach))
     pixel = np.clip(graph.points.astype(np.int32), 0, np.array(shape[::-1]) - 1) + margin
     image = np.zeros(np.add(shape, 2 * margin), np.int32)

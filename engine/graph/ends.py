@@ -10,6 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from ..arrays.ragged import offsets_of
 from ..arrays.sampling import sample
 from ..settings import Settings
 from ..values import PlanarGraph
@@ -80,5 +81,5 @@ def place_ends(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> Pl
         graph,
         vertices=vertices,
         points=points[keep],
-        offsets=np.concatenate([[0], np.cumsum(kept)]).astype(np.int32),
+        offsets=offsets_of(kept).astype(np.int32),
     )

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..arrays.ragged import offsets_of, ranges
 from ..arrays.sampling import sample
 from ..settings import Settings
 from ..values import PlanarGraph
@@ -297,9 +298,7 @@ def _assemble(
     begin, end = cut.reshape(-1, 2).T.astype(np.int64)
     kept = ~inner & (end > begin)
     counts = (end - begin + 1)[kept]
-    total = np.concatenate([[0], np.cumsum(counts)])
-    take = np.arange(total[-1]) - np.repeat(total[:-1], counts) + np.repeat(begin[kept], counts)
-    branch_points = graph.points[take]
+    branch_points = graph.points[ranges(begin[kept], counts)]
     branch_ends = exit_vertex.reshape(-1, 2)[kept]
 
     # Every curve: its first exit, its stops, and (a through-curve) its second exit.
@@ -333,7 +332,7 @@ def _assemble(
     result = PlanarGraph(
         vertices.astype(np.float32),
         np.concatenate([branch_points, rows[mask]]).astype(np.float32),
-        np.concatenate([[0], np.cumsum(np.concatenate([counts, mask.sum(1)]))]).astype(np.int32),
+        offsets_of(np.concatenate([counts, mask.sum(1)])).astype(np.int32),
         np.concatenate([branch_ends, np.stack([node[piece], node[piece + 1]], -1)]).astype(
             np.int32
         ),

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..arrays.ragged import owners
 from ..settings import Settings
 from ..values import PlanarGraph
 from .courses import spoilt
@@ -67,7 +68,7 @@ def _crossings(graph: PlanarGraph, shape: tuple[int, int]) -> tuple[Array, ...]:
     close = np.flatnonzero(spoilt(graph, shape, 2.0) & ~last)
     points = graph.points.astype(np.float64)
     i, j = close[near_pairs((points[close] + points[close + 1]) / 2, 2.0)].T
-    branch = np.repeat(np.arange(graph.branch_count), np.diff(graph.offsets))
+    branch = owners(graph.offsets)
     apart = branch[i] != branch[j]
     i, j = i[apart], j[apart]
     p, d, q, e = points[i], points[i + 1] - points[i], points[j], points[j + 1] - points[j]

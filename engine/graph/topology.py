@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..arrays.ragged import count_up, offsets_of, steps
 from ..settings import Settings
 from ..values import PlanarGraph
 from .chains import follow
@@ -24,7 +25,7 @@ def select(graph: PlanarGraph, keep: Array) -> PlanarGraph:
     return PlanarGraph(
         graph.vertices[used],
         graph.points[stays],
-        np.concatenate([[0], np.cumsum(counts[keep])]).astype(np.int32),
+        offsets_of(counts[keep]).astype(np.int32),
         number[ends].astype(np.int32).reshape(-1, 2),
         *(None if values is None else values[stays] for values in measured),
     )
@@ -57,8 +58,7 @@ def join(graph: PlanarGraph, hold: Array | None = None) -> PlanarGraph:
     last = np.zeros(len(order), bool)
     last[bounds[1:] - 1] = True
     taken = counts - ~last
-    total = np.concatenate([[0], np.cumsum(taken)])
-    within = np.arange(total[-1]) - np.repeat(total[:-1], taken)
+    total, within = offsets_of(taken), count_up(taken)
     start = np.where(flipped, graph.offsets[branch + 1] - 1, graph.offsets[branch])
     step = np.where(flipped, -1, 1)
     points = graph.points[np.repeat(start, taken) + np.repeat(step, taken) * within]
@@ -89,9 +89,7 @@ def lengths(graph: PlanarGraph) -> Array:
     """(B,) float64: arc length of every branch in px."""
     if graph.branch_count == 0:
         return np.zeros(0)
-    steps = np.hypot(*np.diff(graph.points.astype(np.float64), axis=0, append=0).T)
-    steps[graph.offsets[1:] - 1] = 0.0
-    return np.add.reduceat(steps, graph.offsets[:-1])
+    return np.add.reduceat(steps(graph.points, graph.offsets), graph.offsets[:-1])
 
 
 def means(graph: PlanarGraph, values: Array) -> Array:
