@@ -13,8 +13,9 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays.ragged import ranges
+from ..involution import least_cost
 from ..values import PlanarGraph
-from .continuations import ALONE, Continuations, Fits, best_pairing, pairs_within
+from .continuations import ALONE, Continuations, Fits, pairs_within
 from .topology import connected, lengths
 
 Array = np.ndarray
@@ -100,7 +101,7 @@ def _best_mergers(
     owner, slot = owner[fits_in[owner]], slot[fits_in[owner]]
     pairs = pairs_within(owner)
     found = fits.of(slot[pairs])
-    chosen = best_pairing(owner, pairs, found.cost)
+    chosen = least_cost(owner, pairs, found.cost, ALONE)
     used = owner[pairs[chosen, 0]]
     cost = ALONE * (count - 2.0 * np.bincount(used, minlength=groups))
     cost += np.bincount(used, found.cost[chosen], groups)

@@ -9,8 +9,6 @@ decided later, by the routing.
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
-from functools import cache
-from itertools import combinations
 
 import numpy as np
 
@@ -194,69 +192,6 @@ def extend(points: Array, weights: Array, reach: Array) -> Array:
     across = _value(c, -along) - c[:, :1] * np.maximum(0.0, 1 - t) * (1 - t)
     side = np.stack([-inward[:, 1], inward[:, 0]], -1)
     return exit_point + along[..., None] * inward[:, None] + across[..., None] * side[:, None]
-
-
-def best_pairing(group: Array, pairs: Array, cost: Array) -> Array:
-    """Which pairs to join so that the whole costs least.
-
-    Args:
-        group: (H,) the group of every half-branch; those of group -1 take no part.
-        pairs: (K, 2) all pairs within groups, and their cost (K,).
-
-    Returns:
-        (K,) bool. Groups of up to eight half-branches are solved exactly, larger ones greedily.
-    """
-    chosen = np.zeros(len(pairs), bool)
-    if len(pairs) == 0:
-        return chosen
-    size = np.bincount(group[group >= 0])
-    owner = group[pairs[:, 0]]
-    # Pairs come group by group, each in the order of `combinations`.
-    order = np.lexsort((pairs[:, 1], pairs[:, 0], owner))
-    for k in np.unique(size[owner]):
-        mine = order[size[owner[order]] == k]
-        if k <= 8:
-            table, alone = _involutions(int(k))
-            mine = mine.reshape(-1, table.shape[1])
-            total = cost[mine] @ table.T + alone * ALONE
-            chosen[mine] = table[total.argmin(1)] > 0
-        else:
-            chosen[_greedy(pairs[mine], cost[mine], mine)] = True
-    return chosen
-
-
-@cache
-def _involutions(k: int) -> tuple[Array, Array]:
-    """All ways to pair up k things: (I, k (k - 1) / 2) 0 or 1, and (I,) how many stay alone."""
-    column = {pair: i for i, pair in enumerate(combinations(range(k), 2))}
-
-    def ways(rest: tuple[int, ...]) -> list[list[tuple[int, int]]]:
-        if not rest:
-            return [[]]
-        head, tail = rest[0], rest[1:]
-        found = ways(tail)
-        for i, other in enumerate(tail):
-            found += [[(head, other), *w] for w in ways(tail[:i] + tail[i + 1 :])]
-        return found
-
-    every = ways(tuple(range(k)))
-    table = np.zeros((len(every), len(column)))
-    for row, way in enumerate(every):
-        table[row, [column[pair] for pair in way]] = 1
-    return table, k - 2 * table.sum(1)
-
-
-def _greedy(pairs: Array, cost: Array, ids: Array) -> Array:
-    taken: set[int] = set()
-    picked = []
-    for i in np.argsort(cost, kind="stable"):
-        if cost[i] >= 2 * ALONE:
-            break
-        a, b = map(int, pairs[i])
-        if a not in taken and b not in taken:
-            taken |= {a, b}
-            picked.append(ids[i])
-    return np.array(picked, np.int64)
 
 
 def pairs_within(group: Array) -> Array:

@@ -14,10 +14,11 @@ import numpy as np
 
 from ..arrays.ragged import offsets_of, ranges
 from ..arrays.sampling import sample
+from ..involution import least_cost
 from ..settings import Settings
 from ..values import PlanarGraph
 from .clusters import find_blobs
-from .continuations import SAMPLES, Continuations, best_pairing, extend, pairs_within
+from .continuations import ALONE, SAMPLES, Continuations, extend, pairs_within
 from .courses import Halves, read_halves
 from .evidence import Evidence
 from .shared_ridges import told_apart
@@ -62,7 +63,7 @@ def _rebuild(
     h_group = np.where(np.repeat(inner, 2), -1, group[graph.half_vertex])
     pairs = pairs_within(h_group)
     found = fits.of(pairs)
-    chosen = np.flatnonzero(best_pairing(h_group, pairs, found.cost))
+    chosen = np.flatnonzero(least_cost(h_group, pairs, found.cost, ALONE))
     chosen = chosen[~_stars(h_group, pairs[chosen], found.cost[chosen], graph, half, value)]
     through = pairs[chosen]
     alone = h_group >= 0
