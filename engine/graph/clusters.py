@@ -16,14 +16,11 @@ from ..arrays.ragged import ranges
 from ..involution import least_cost
 from ..values import PlanarGraph
 from .continuations import ALONE, Continuations, Fits, pairs_within
+from .limits import LIMITS
 from .topology import connected, lengths
 
 Array = np.ndarray
 
-LINK = 4.0  # px; branchings linked by less are one blob
-SHARED = 60.0  # px; the longest piece that may carry two lines at once
-ASIDE = 1.3  # px; how far beside a curve the piece may lie that it explains
-GAIN = 0.15  # what a merger must save, in units of a half-branch that ends
 LARGEST = 8  # half-branches of one blob
 
 
@@ -41,10 +38,10 @@ def find_blobs(graph: PlanarGraph, fits: Continuations) -> tuple[Array, Array]:
     fork = graph.degrees >= 3
     long = lengths(graph)
     link = fork[a] & fork[b] & (a != b)
-    inner = link & (long < LINK)
+    inner = link & (long < LIMITS.cluster_link)
     blob = connected(len(fork), graph.ends[inner])
-    inner = link & (blob[a] == blob[b]) & (long < 2 * LINK)
-    near = np.flatnonzero(link & (long < SHARED))
+    inner = link & (blob[a] == blob[b]) & (long < 2 * LIMITS.cluster_link)
+    near = np.flatnonzero(link & (long < LIMITS.cluster_shared))
     for _ in range(4):
         merged = _best_mergers(graph, fits, blob, inner, near, long)
         if not len(merged):
@@ -91,7 +88,12 @@ def _best_mergers(
 
     other = home[slot ^ 1]
     both = (candidates[np.minimum(owner, len(candidates) - 1)] == other[:, None]).any(1)
-    inside = both & (owner < len(candidates)) & (other != home[slot]) & (long[slot >> 1] < SHARED)
+    inside = (
+        both
+        & (owner < len(candidates))
+        & (other != home[slot])
+        & (long[slot >> 1] < LIMITS.cluster_shared)
+    )
     inner_owner, inner_branch = owner[inside & (slot % 2 == 0)], slot[inside & (slot % 2 == 0)] >> 1
     owner, slot = owner[~inside], slot[~inside]
 
@@ -112,7 +114,7 @@ def _best_mergers(
     covered = _covered(graph, found, np.flatnonzero(chosen), used, inner_owner, inner_branch)
     bad = np.zeros(groups, bool)
     bad[inner_owner[~covered]] = True
-    good = (gain > GAIN) & ~bad[: len(candidates)] & fits_in[: len(candidates)]
+    good = (gain > LIMITS.cluster_gain) & ~bad[: len(candidates)] & fits_in[: len(candidates)]
 
     taken = np.zeros(len(blob), bool)
     accepted = np.zeros(groups, bool)
@@ -126,7 +128,7 @@ def _best_mergers(
 def _candidates(sides: Array, long: Array) -> Array:
     """Blobs that might merge: (K, 3), two or three linked ones; -1 fills up."""
     two = np.unique(sides, axis=0)
-    short = np.unique(sides[long < SHARED / 2], axis=0)
+    short = np.unique(sides[long < LIMITS.cluster_shared / 2], axis=0)
     # Three in a row: two short links that share a blob.
     arms = np.concatenate([short, short[:, ::-1]])
     arms = arms[np.lexsort((arms[:, 1], arms[:, 0]))]
@@ -150,5 +152,5 @@ def _covered(
     row = np.repeat(np.arange(len(branch)), size)
     aside = fits.pick(curve).distance(points[row]).max(1)
     covered = np.zeros(len(branch), bool)
-    covered[row[aside < ASIDE]] = True
+    covered[row[aside < LIMITS.cluster_aside]] = True
     return covered

@@ -14,17 +14,14 @@ import numpy as np
 
 from ..arrays.sampling import sample
 from .courses import Halves, direction
+from .limits import LIMITS
 
 Array = np.ndarray
 
 SAMPLES = 17  # points of a curve within the blob, exits included
 ALONE = 1.0  # cost of a half-branch that runs on into none
-NOISE = 0.2  # px; how far ridge points stray from a smooth line
-TURN, SWERVE = np.radians(40.0), np.radians(20.0)  # a bend, and a bend with a counter-bend
-BENT = 0.8  # how much of the bend that the sides foretell is free
-INK = 0.35  # a curve must stay this bright, compared with the fainter of its two sides
-NEVER = 1e3
-FADE = 6  # how fast a curve goes over from the ridge point at its exit to the cubic
+NEVER = 1e3  # cost of what is out of the question
+FADE = 6  # power; how fast a curve goes over from the ridge point at its exit to the cubic
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,7 +105,8 @@ def _fit(half: Halves, pairs: Array, value: Array) -> Fits:
     scale = np.maximum(length, 1.0)
     origin = (half.points[a, 0] + half.points[b, 0]) / 2
     # Both sides must lie on their own side of the blob, and run away from it.
-    apart = ((half.outward[a] * axis).sum(1) < -0.4) & ((half.outward[b] * axis).sum(1) > 0.4)
+    side = LIMITS.continue_side
+    apart = ((half.outward[a] * axis).sum(1) < -side) & ((half.outward[b] * axis).sum(1) > side)
     some = np.flatnonzero(apart)
     cost = np.full(len(pairs), NEVER)
     coefficients, span, offset = (np.zeros((len(pairs), n)) for n in (4, 2, 2))
@@ -136,14 +134,18 @@ def _fit(half: Halves, pairs: Array, value: Array) -> Fits:
     # A curve that bends as both of its sides do bends no more than it must.
     due = (half.bend[b] - half.bend[a]) / 2 * gap
     due = np.where(turn * due > 0, np.minimum(np.abs(due), np.abs(turn)), 0.0)
-    turn = np.abs(turn) - BENT * due
+    turn = np.abs(turn) - LIMITS.continue_bent * due
     swerve = angle.mean(1) - lean
-    total = (rms / NOISE) ** 2 + (turn / TURN) ** 2 + (swerve / SWERVE) ** 2
+    total = (
+        (rms / LIMITS.continue_noise) ** 2
+        + (turn / np.radians(LIMITS.continue_turn)) ** 2
+        + (swerve / np.radians(LIMITS.continue_swerve)) ** 2
+    )
     total[(ends[:, 1] < ends[:, 0]) | ~np.isfinite(total)] = NEVER
     coefficients[some], span[some] = c, ends
     offset[some] = np.stack([y[:, 0], y[:, n]], -1) - across
     dark = sample(value, fits.pick(some).sampled()).min(1)
-    total[dark < INK * np.minimum(half.level[a], half.level[b])] = NEVER
+    total[dark < LIMITS.continue_ink * np.minimum(half.level[a], half.level[b])] = NEVER
     cost[some] = np.minimum(total, NEVER)
     return fits
 

@@ -16,11 +16,11 @@ from ..arrays.ragged import owners
 from ..arrays.sampling import sample
 from ..values import PlanarGraph
 from .evidence import Evidence
+from .limits import LIMITS
 
 Array = np.ndarray
 
 WINDOW = 16  # points of a half-branch, outside its blob, that tell where it goes
-REACH = 1.6  # px; a second line nearer than this bends the ridge of a first one noticeably
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,7 +76,7 @@ def read_halves(graph: PlanarGraph, evidence: Evidence) -> Halves:
         evidence: its smoothed centerline map.
     """
     value = evidence.value
-    dirty = spoilt(graph, value.shape, REACH * max(1.0, evidence.ridge_width / 2))
+    dirty = spoilt(graph, value.shape, LIMITS.course_reach * max(1.0, evidence.ridge_width / 2))
     starts, stops = graph.offsets[:-1].astype(np.int64), graph.offsets[1:].astype(np.int64) - 1
     index = np.arange(len(graph.points))
     usable = np.where(dirty, len(index), index)
@@ -96,11 +96,11 @@ def read_halves(graph: PlanarGraph, evidence: Evidence) -> Halves:
     place = begin[:, None] + step[:, None] * np.arange(WINDOW)
     inside = (place >= np.repeat(starts, 2)[:, None]) & (place <= np.repeat(stops, 2)[:, None])
     place = np.clip(place, 0, len(index) - 1)
-    weights = np.where(dirty[place], 0.05, 1.0) * inside
+    weights = np.where(dirty[place], LIMITS.course_dirty, 1.0) * inside
     points = graph.points[place].astype(np.float64)
     total = np.maximum(weights.sum(1), 1e-9)
     level = (sample(value, points) * weights).sum(1) / total
-    near = weights * np.exp(-((np.arange(WINDOW) / 8.0) ** 2))
+    near = weights * np.exp(-((np.arange(WINDOW) / LIMITS.course_fade) ** 2))
     center = _mean(points, near)
     outward = direction(points, near)
     return Halves(

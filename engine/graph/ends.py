@@ -15,11 +15,11 @@ from ..arrays.sampling import sample
 from ..settings import Settings
 from ..values import PlanarGraph
 from .evidence import Evidence
+from .limits import LIMITS
 
 Array = np.ndarray
 
 _BACK, _AHEAD, _STEP = 3.0, 3.0, 0.25  # px searched before and after the skeleton's end
-LEFT = 0.6
 _INSIDE = 8  # points of the branch that give its direction and its brightness
 
 
@@ -53,7 +53,7 @@ def place_ends(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> Pl
     reach = np.arange(-_BACK, _AHEAD + _STEP / 2, _STEP)
     tips = graph.points[tip].astype(np.float64)
     profile = sample(value, tips[:, None] + reach[:, None] * outward[:, None])
-    half = LEFT * level[:, None]
+    half = LIMITS.end_left * level[:, None]
     # Where it grows brighter again, another line begins.
     falls = np.diff(profile, axis=1, prepend=profile[:, :1]) < 0.01 * level[:, None]
     lit = (profile > half) & (falls | (reach < 0.5))

@@ -9,11 +9,10 @@ import cv2
 import numpy as np
 
 from ..values import LineMaps, Scan
+from .limits import LIMITS
 from .ridge import Ridge
 
 Array = np.ndarray
-
-RIDGE_WIDTH = 2.0  # px; every provider draws its ridges this wide, whatever the pen; see `LineMaps`
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,7 +30,7 @@ class Evidence:
     pen_width: float
     scan: Scan | None = None
     partner: Array | None = None
-    ridge_width: float = RIDGE_WIDTH
+    ridge_width: float = LIMITS.ridge_width
 
     @staticmethod
     def of(scan: Scan, maps: LineMaps) -> Evidence:

@@ -7,9 +7,8 @@ import numpy as np
 from ..settings import Settings
 from ..values import PlanarGraph
 from .evidence import Evidence
+from .limits import LIMITS
 from .topology import connected, join, lengths, select
-
-TOUCHING = 1.0  # ridge widths; forks linked by less are one
 
 
 def merge_forks(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> PlanarGraph:
@@ -18,7 +17,7 @@ def merge_forks(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> P
     Reads: nothing but the graph.
     Promises: no branch between two forks is shorter than the ridge is wide, but for rings.
     """
-    short = lengths(graph) < TOUCHING * evidence.ridge_width
+    short = lengths(graph) < LIMITS.fork_touching * evidence.ridge_width
     link = short & (graph.degrees[graph.ends] >= 3).all(1)
     if not link.any():
         return graph

@@ -21,16 +21,11 @@ from .clusters import find_blobs
 from .continuations import ALONE, SAMPLES, Continuations, extend, pairs_within
 from .courses import Halves, read_halves
 from .evidence import Evidence
+from .limits import LIMITS
 from .shared_ridges import told_apart
 from .topology import connected, join
 
 Array = np.ndarray
-
-MERGE = 1.4  # px; crossings nearer than this are one junction
-TOUCH = 0.6  # px; curves that come this near touch
-BENT = 0.4  # cost of a continuation that is none too smooth
-STAR = 0.6  # px; how far beside their meeting point straight half-branches may pass
-STRAY = 6.0  # px; a stem may miss the curve that it ends on by this much
 
 
 def resolve_junctions(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> PlanarGraph:
@@ -85,7 +80,7 @@ def _rebuild(
     )
 
     to_middle = np.hypot(*(middle[blob[stems]] - exits[stems]).T)
-    path = extend(half.points[stems], half.weights[stems], to_middle + MERGE + 1.0)
+    path = extend(half.points[stems], half.weights[stems], to_middle + LIMITS.junction_merge + 1.0)
     smooth = told_apart(found.pick(chosen).sampled(), blob[through[:, 0]], through, half, value)
     curves = np.concatenate([smooth, path])
     curve_blob = np.concatenate([blob[through[:, 0]], blob[stems]]).astype(np.int64)
@@ -105,14 +100,14 @@ def _stars(
 
     Where lines end together the smoothest pairs would bend around that point.
     """
-    bent = np.unique(group[through[cost > BENT, 0]])
+    bent = np.unique(group[through[cost > LIMITS.junction_bent, 0]])
     member = np.flatnonzero(np.isin(group, bent) & (group >= 0))
     if not len(member):
         return np.zeros(len(through), bool)
     home = np.searchsorted(bent, group[member])
     count = np.bincount(home)
     middle = np.stack([np.bincount(home, half.points[member, 0, k]) / count for k in (0, 1)], -1)
-    reach = np.hypot(*(middle[home] - half.points[member, 0]).T) + MERGE
+    reach = np.hypot(*(middle[home] - half.points[member, 0]).T) + LIMITS.junction_merge
     paths = extend(half.points[member], half.weights[member], reach)
     place = _meeting_points(paths, home, middle, value)
     gap = np.hypot(*np.moveaxis(paths - place[home, None], -1, 0))
@@ -124,7 +119,7 @@ def _stars(
     aside = np.abs(off[:, 0] * course[:, 1] - off[:, 1] * course[:, 0])
     worst = np.zeros(len(bent))
     np.maximum.at(worst, home, aside)
-    return np.isin(group[through[:, 0]], bent[(worst < STAR) & (count > 2)])
+    return np.isin(group[through[:, 0]], bent[(worst < LIMITS.junction_star) & (count > 2)])
 
 
 def _meetings(curves: Array, blob: Array, is_stem: Array) -> Array:
@@ -145,7 +140,7 @@ def _meetings(curves: Array, blob: Array, is_stem: Array) -> Array:
         key = pairs[:, 0] * len(curves) + pairs[:, 1]
         crossed = np.isin(key, crossings[:, 0] * len(curves) + crossings[:, 1])
         apart = pairs[~crossed]
-        limit = np.where(is_stem[apart].any(1), STRAY, TOUCH)
+        limit = np.where(is_stem[apart].any(1), LIMITS.junction_stray, LIMITS.junction_touch)
         near, gap = _touches(curves, apart, limit)
         has_hit = np.zeros(len(curves), bool)
         has_hit[crossings[:, :2].astype(np.int64)] = True
@@ -220,7 +215,7 @@ def _meeting_points(paths: Array, blob: Array, middle: Array, value: Array) -> A
     # Never leave the ink: as far towards the meeting point as the line is half as bright.
     way = np.linspace(0, 1, 9)
     light = sample(value, middle[:, None] + way[:, None] * (found - middle)[:, None])
-    dark = light < 0.5 * light[:, :1]
+    dark = light < LIMITS.junction_ink * light[:, :1]
     reach = np.where(dark.any(1), way[np.maximum(dark.argmax(1) - 1, 0)], 1.0)
     return middle + reach[:, None] * (found - middle)
 
@@ -239,7 +234,7 @@ def _stops(
     curve = meetings[:, :2].astype(np.int64)
     here = (_at(curves, curve[:, 0], meetings[:, 2]) + _at(curves, curve[:, 1], meetings[:, 3])) / 2
     pairs = pairs_within(blob[curve[:, 0]]) if len(meetings) else np.zeros((0, 2), np.int64)
-    close = np.hypot(*(here[pairs[:, 0]] - here[pairs[:, 1]]).T) < MERGE
+    close = np.hypot(*(here[pairs[:, 0]] - here[pairs[:, 1]]).T) < LIMITS.junction_merge
     label = connected(len(meetings), pairs[close])
     names, junction = np.unique(label, return_inverse=True)
     weight = np.bincount(junction, meetings[:, 4], len(names))

@@ -10,11 +10,11 @@ from ..arrays.sampling import sample
 from ..settings import Settings
 from ..values import PlanarGraph, Scan
 from .evidence import Evidence
+from .limits import LIMITS
 
 Array = np.ndarray
 
 _STEP = 0.5  # px between the samples across a line
-_ALONG = 4  # points on either side that agree on a width
 
 
 def measure(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> PlanarGraph:
@@ -31,7 +31,7 @@ def measure(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> Plana
     else:
         widths = _widths(graph, scan)
     widths = np.where(np.isfinite(widths) & (widths > 0), widths, scan.pen_width)
-    widths = np.clip(_agreed(graph, widths), 0.5, max(8 * scan.pen_width, 8.0))
+    widths = np.clip(_agreed(graph, widths), 0.5, max(LIMITS.width_widest * scan.pen_width, 8.0))
     strength = np.clip(_agreed(graph, sample(scan.ink, graph.points)), 0.0, 1.0)
     colors = None
     if scan.color is not None:
@@ -79,5 +79,5 @@ def _agreed(graph: PlanarGraph, values: Array) -> Array:
     index = np.arange(len(graph.points))[:, None]
     first = np.repeat(graph.offsets[:-1], count)[:, None]
     last = np.repeat(graph.offsets[1:] - 1, count)[:, None]
-    window = np.clip(index + np.arange(-_ALONG, _ALONG + 1), first, last)
+    window = np.clip(index + np.arange(-LIMITS.width_agreed, LIMITS.width_agreed + 1), first, last)
     return np.median(values[window], axis=1)

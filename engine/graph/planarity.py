@@ -14,12 +14,12 @@ from ..settings import Settings
 from ..values import PlanarGraph
 from .courses import spoilt
 from .evidence import Evidence
+from .limits import LIMITS
 from .nearby import near_pairs
 from .topology import join
 
 Array = np.ndarray
 
-_SAME = 1.0  # px; a crossing this near to a vertex of both branches is that vertex
 _WITHIN = 1e-4  # of a segment at its ends that count as outside
 
 
@@ -82,5 +82,5 @@ def _crossings(graph: PlanarGraph, shape: tuple[int, int]) -> tuple[Array, ...]:
     one, two = graph.ends[branch[i]], graph.ends[branch[j]]
     shared = (one[:, :, None] == two[:, None]).any(2)
     gap = np.linalg.norm(graph.vertices[one] - places[:, None], axis=-1)
-    new = ~(shared & (gap < _SAME)).any(1)
+    new = ~(shared & (gap < LIMITS.crossing_same)).any(1)
     return i[new], j[new], s[new], t[new], places[new]

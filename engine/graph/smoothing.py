@@ -15,10 +15,10 @@ from ..arrays.ragged import offsets_of, owners, steps
 from ..settings import Settings
 from ..values import PlanarGraph
 from .evidence import Evidence
+from .limits import LIMITS
 
 Array = np.ndarray
 
-ROUNDS = 10  # how often all points move with the strongest smoothing
 _PARABOLA = np.array([-3, 12, 17, 12, -3]) / 35
 
 
@@ -37,7 +37,7 @@ def smooth_lines(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> 
     Reads: Settings.smoothing.
     Promises: points 1 px apart.
     """
-    return even(smooth(even(graph), round(ROUNDS * settings.smoothing)))
+    return even(smooth(even(graph), round(LIMITS.smooth_rounds * settings.smoothing)))
 
 
 def even(graph: PlanarGraph, spacing: float = 1.0) -> PlanarGraph:

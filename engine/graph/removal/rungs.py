@@ -8,10 +8,8 @@ from ...arrays.sampling import sample
 from ...settings import Settings
 from ...values import PlanarGraph
 from ..evidence import Evidence
+from ..limits import LIMITS
 from ..topology import join, lengths, rank_at_vertex, select
-from .spurs import SEEN
-
-LONGEST = 6.0  # ridge widths
 
 
 def remove_rungs(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> PlanarGraph:
@@ -22,9 +20,9 @@ def remove_rungs(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> 
     """
     if evidence.seen_junctions is None:
         return graph
-    unseen = sample(evidence.seen_junctions, graph.vertices) < SEEN
+    unseen = sample(evidence.seen_junctions, graph.vertices) < LIMITS.junction_seen
     unseen &= graph.degrees == 3
-    short = lengths(graph) < LONGEST * evidence.ridge_width
+    short = lengths(graph) < LIMITS.rung_longest * evidence.ridge_width
     short &= graph.ends[:, 0] != graph.ends[:, 1]
     dimmest = np.minimum.reduceat(sample(evidence.value, graph.points), graph.offsets[:-1])
     rank = rank_at_vertex(graph.half_vertex, graph.degrees, np.repeat(dimmest, 2)).reshape(-1, 2)

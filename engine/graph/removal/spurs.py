@@ -13,14 +13,10 @@ from ...arrays.sampling import sample
 from ...settings import Settings
 from ...values import PlanarGraph
 from ..evidence import Evidence
+from ..limits import LIMITS
 from ..topology import join, lengths, rank_at_vertex, select
 
 Array = np.ndarray
-
-_NO_END, _END = 0.1, 0.5  # of the end map near a tip
-SHORTEST = 1.5  # ridge widths of a loose branch about whose tip and fork nothing is known
-SEEN = 0.5  # of the junction map near a fork: 24 of 25 true ones have more, every other false one
-_UNSEEN = 5.0  # times longer is a spur that hangs on a fork which nobody sees
 
 
 def remove_spurs(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> PlanarGraph:
@@ -34,7 +30,7 @@ def remove_spurs(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> 
     Promises: no vertices of degree two but those of rings.
     """
     tips, forks = evidence.seen_ends, evidence.seen_junctions
-    shortest = SHORTEST * evidence.ridge_width
+    shortest = LIMITS.spur_longest * evidence.ridge_width
     for _ in range(2):
         vertex, degree = graph.half_vertex, graph.degrees
         long = np.repeat(lengths(graph), 2)
@@ -43,9 +39,15 @@ def remove_spurs(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> 
         limit = np.full(len(vertex), shortest)
         if tips is not None:
             seen = sample(tips, graph.vertices[tip])
-            limit *= np.where(seen < _NO_END, 2.0, np.where(seen > _END, 0.5, 1.0))
+            limit *= np.where(
+                seen < LIMITS.spur_no_end, 2.0, np.where(seen > LIMITS.spur_end, 0.5, 1.0)
+            )
         if forks is not None:
-            limit *= np.where(sample(forks, graph.vertices[vertex]) < SEEN, _UNSEEN, 1.0)
+            limit *= np.where(
+                sample(forks, graph.vertices[vertex]) < LIMITS.junction_seen,
+                LIMITS.spur_unseen,
+                1.0,
+            )
         spur = (degree[tip] == 1) & (degree[vertex] >= 3) & (rank >= 2) & (long < limit)
         if not spur.any():
             break

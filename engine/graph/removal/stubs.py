@@ -12,11 +12,10 @@ import numpy as np
 from ...settings import Settings
 from ...values import PlanarGraph
 from ..evidence import Evidence
+from ..limits import LIMITS
 from ..topology import connected, join, lengths, select
 
 Array = np.ndarray
-
-_TIP, _BETWEEN = 1.5, 2.0  # how many times as long as a loose stroke it must be
 
 
 def remove_stubs(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> PlanarGraph:
@@ -41,6 +40,6 @@ def remove_stubs(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> 
         for some in (ends, degree == 1)
     )
     pen = float(np.median(graph.widths))
-    shortest = np.where(loose, _TIP, _BETWEEN) * settings.min_length * pen
+    shortest = np.where(loose, LIMITS.stub_tip, LIMITS.stub_between) * settings.min_length * pen
     stub = (hangs & (length < shortest))[stroke]
     return join(select(graph, ~stub)) if stub.any() else graph

@@ -21,15 +21,14 @@ from ...settings import Settings
 from ...values import PlanarGraph
 from ..continuations import pairs_within
 from ..evidence import Evidence
+from ..limits import LIMITS
 from ..topology import join, lengths, means, select
 
 Array = np.ndarray
 
 WEIGHTS = weights.FOLDER / "undrawn.npz"
-SURE = 0.5  # probability from which on a branch goes
 FEATURES = 11 + 2 * 11  # of a branch: its own, and those of its two ends
 _LOOK = 6  # points of a branch that tell its direction
-LONGEST = 5.0  # pen widths; a longer branch stays, whatever is thought of it
 _AROUND = 25  # px; side of the square in which junctions are counted
 
 
@@ -49,8 +48,8 @@ def remove_undrawn(graph: PlanarGraph, evidence: Evidence, settings: Settings) -
     unseen = any(seen is None for seen in needed)
     if graph.branch_count == 0 or unseen or not WEIGHTS.exists():
         return graph
-    false = probability(features(graph, evidence)) > SURE
-    false &= lengths(graph) < LONGEST * evidence.pen_width
+    false = probability(features(graph, evidence)) > LIMITS.undrawn_sure
+    false &= lengths(graph) < LIMITS.undrawn_longest * evidence.pen_width
     return join(select(graph, ~false)) if false.any() else graph
 
 
