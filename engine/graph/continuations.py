@@ -1,6 +1,6 @@
-"""Which half-branches run on into which: smooth curves through a blob.
+"""Which half-branches run on into which: smooth curves through a cluster.
 
-Every pair of half-branches that leave one blob is tried: one cubic through the clean points of
+Every pair of half-branches that leave one cluster is tried: one cubic through the clean points of
 both sides, in the frame of their chord. A true continuation fits to a tenth of a pixel and hardly
 turns. This pairing only serves to find the exact place of the junction; what is one stroke is
 decided later, by the routing.
@@ -13,12 +13,12 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from ..arrays.sampling import sample
-from .courses import Halves, direction
+from .courses import Courses, direction
 from .limits import LIMITS
 
 Array = np.ndarray
 
-SAMPLES = 17  # points of a curve within the blob, exits included
+SAMPLES = 17  # points of a curve within the cluster, exits included
 ALONE = 1.0  # cost of a half-branch that runs on into none
 NEVER = 1e3  # cost of what is out of the question
 FADE = 6  # power; how fast a curve goes over from the ridge point at its exit to the cubic
@@ -76,7 +76,7 @@ class Continuations:
         value: (H, W) the smoothed centerline map; a curve that leaves the ink is out.
     """
 
-    def __init__(self, half: Halves, value: Array) -> None:
+    def __init__(self, half: Courses, value: Array) -> None:
         self._half = half
         self._value = value
         self._keys = np.zeros(0, np.int64)
@@ -96,7 +96,7 @@ class Continuations:
         return self._fits.pick(np.searchsorted(self._keys, keys))
 
 
-def _fit(half: Halves, pairs: Array, value: Array) -> Fits:
+def _fit(half: Courses, pairs: Array, value: Array) -> Fits:
     """One cubic through both half-branches of each pair."""
     a, b = pairs.T
     chord = half.center[b] - half.center[a]
@@ -104,7 +104,7 @@ def _fit(half: Halves, pairs: Array, value: Array) -> Fits:
     axis = chord / np.maximum(length, 1e-9)[:, None]
     scale = np.maximum(length, 1.0)
     origin = (half.points[a, 0] + half.points[b, 0]) / 2
-    # Both sides must lie on their own side of the blob, and run away from it.
+    # Both sides must lie on their own side of the cluster, and run away from it.
     side = LIMITS.continue_side
     apart = ((half.outward[a] * axis).sum(1) < -side) & ((half.outward[b] * axis).sum(1) > side)
     some = np.flatnonzero(apart)
@@ -167,7 +167,7 @@ def _cubic(x: Array, y: Array, weight: Array) -> tuple[Array, Array]:
 
 
 def extend(points: Array, weights: Array, reach: Array) -> Array:
-    """Half-branches continued into their blob.
+    """Half-branches continued into their cluster.
 
     Args:
         points, weights: (K, N, 2) and (K, N), outward from the exit.

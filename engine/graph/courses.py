@@ -20,18 +20,18 @@ from .limits import LIMITS
 
 Array = np.ndarray
 
-WINDOW = 16  # points of a half-branch, outside its blob, that tell where it goes
+WINDOW = 16  # points of a half-branch, outside its cluster, that tell where it goes
 
 
 @dataclass(frozen=True, eq=False)
-class Halves:
-    """The half-branches of a graph, read outward from where they leave their blob.
+class Courses:
+    """The half-branches of a graph, read outward from where they leave their cluster.
 
     exit: (2B,) int32, the point of graph.points at which the clean part begins.
     points: (2B, WINDOW, 2) float64, px, and weights: (2B, WINDOW) float64: the course from there
         on; the weight is small where a neighbour spoils the ridge, 0 past the end of the branch.
     level: (2B,) float64, mean brightness of the ridge along that course.
-    center (2B, 2), outward (2B, 2): its middle, and the unit direction away from the blob.
+    center (2B, 2), outward (2B, 2): its middle, and the unit direction away from the cluster.
     bend: (2B,) float64, curvature there, 1/px; positive when it turns towards +y from +x.
     """
 
@@ -68,8 +68,8 @@ def spoilt(graph: PlanarGraph, shape: tuple[int, int], reach: float) -> Array:
     return found
 
 
-def read_halves(graph: PlanarGraph, evidence: Evidence) -> Halves:
-    """Where every half-branch leaves its blob, and its course from there on.
+def read_courses(graph: PlanarGraph, evidence: Evidence) -> Courses:
+    """Where every half-branch leaves its cluster, and its course from there on.
 
     Args:
         graph: the skeleton's graph, its points on the crest of the lines.
@@ -103,7 +103,7 @@ def read_halves(graph: PlanarGraph, evidence: Evidence) -> Halves:
     near = weights * np.exp(-((np.arange(WINDOW) / LIMITS.course_fade) ** 2))
     center = _mean(points, near)
     outward = direction(points, near)
-    return Halves(
+    return Courses(
         begin.astype(np.int32), points, weights, level, center, outward, _bend(points, weights)
     )
 

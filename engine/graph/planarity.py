@@ -1,7 +1,7 @@
 """Branches cross in vertices only: the last step, which makes the graph planar but for a few.
 
-Every blob is resolved on its own, so the curves through two blobs a few pixels apart may cross each
-other, and smoothing may push one line over its neighbour. Each such crossing becomes a vertex,
+Every cluster is resolved on its own, so the curves through two of them a few pixels apart may cross
+each other, and smoothing may push one line over its neighbour. Each such crossing becomes a vertex,
 unless it lies beside one that both branches share.
 """
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from ..arrays.sampling import sample
 from .continuations import FADE, SAMPLES, pairs_within
-from .courses import Halves
+from .courses import Courses
 from .limits import LIMITS
 
 Array = np.ndarray
@@ -28,17 +28,17 @@ CHUNK = 128  # pairs fitted at a time, so that they need little memory
 _POWERS = np.arange(4)
 
 
-def told_apart(curves: Array, blob: Array, through: Array, half: Halves, value: Array) -> Array:
-    """Curves (C, SAMPLES, 2) through blobs, those of close pairs fitted to the map.
+def told_apart(curves: Array, cluster: Array, through: Array, half: Courses, value: Array) -> Array:
+    """Curves (C, SAMPLES, 2) through clusters, those of close pairs fitted to the map.
 
     Args:
-        curves: points from exit to exit, px; blob: (C,) the blob of each.
+        curves: points from exit to exit, px; cluster: (C,) the cluster of each.
         through: (C, 2) the half-branches that each one joins.
         half: the course of all half-branches.
         value: (H, W) the smoothed centerline map.
     """
     curves = curves.copy()
-    pairs = _close_pairs(curves, blob)
+    pairs = _close_pairs(curves, cluster)
     if not len(pairs):
         return curves
     for part in np.array_split(pairs, len(pairs) // CHUNK + 1):
@@ -47,9 +47,9 @@ def told_apart(curves: Array, blob: Array, through: Array, half: Halves, value: 
     return curves
 
 
-def _close_pairs(curves: Array, blob: Array) -> Array:
-    """(K, 2) pairs of one blob that are one ridge somewhere; every curve is in one at most."""
-    pairs = pairs_within(blob)
+def _close_pairs(curves: Array, cluster: Array) -> Array:
+    """(K, 2) pairs of one cluster that are one ridge somewhere; every curve is in one at most."""
+    pairs = pairs_within(cluster)
     if not len(pairs):
         return pairs
     way = np.gradient(curves, axis=1)
@@ -106,7 +106,7 @@ class _Frame:
         )
 
 
-def _fitted(curves: Array, through: Array, half: Halves, value: Array) -> tuple[Array, Array]:
+def _fitted(curves: Array, through: Array, half: Courses, value: Array) -> tuple[Array, Array]:
     """Pairs of curves (K, 2, SAMPLES, 2) fitted to the map, and which fits (K,) can be trusted."""
     chord = curves[:, :, -1] - curves[:, :, 0]
     against = (chord[:, 0] * chord[:, 1]).sum(-1) < 0

@@ -15,7 +15,7 @@ import numpy as np
 from ..settings import Settings
 from ..values import PlanarGraph
 from .continuations import ALONE, Continuations
-from .courses import read_halves
+from .courses import read_courses
 from .evidence import Evidence
 from .limits import LIMITS
 from .topology import lengths, select
@@ -46,7 +46,7 @@ def open_tips(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> Pla
     order, start = graph.halves_at
     three = order[start[vertex[stem]][:, None] + np.arange(3)]
     arms = three[three != stem[:, None]].reshape(-1, 2)
-    half = read_halves(graph, evidence)
+    half = read_courses(graph, evidence)
     fits = Continuations(half, evidence.value)
     along = np.maximum(*(fits.of(np.stack([arms[:, k], stem], -1)).cost for k in (0, 1)))
     across = fits.of(arms).cost
