@@ -20,7 +20,8 @@ from involute.engine.centerline import provider_for
 from involute.engine.fills.solids import split_solids
 from involute.engine.graph import Evidence, run_passes
 from involute.engine.graph.passes import MEASURED, ROUTED
-from involute.engine.scan.preparing import MIN_SIDE, read_scan
+from involute.engine.scan.picture import MIN_SIDE
+from involute.engine.scan.preparing import read_scan
 from involute.engine.settings import Settings
 from involute.engine.values import LineMaps, PlanarGraph, Scan
 
