@@ -27,7 +27,7 @@ from involute.engine.routing import route
 from involute.engine.scan import read_scan
 
 from .graph_stage import polylines
-from .judged_pages import Page, pages
+from .judged_pages import JudgedPage, pages
 from .metrics import Score, evaluate, scaled, summarize
 from .tables import markdown
 
@@ -67,7 +67,7 @@ def main(argv: Sequence[str] | None = None) -> None:
         arguments.out.write_text(_document(head, text), "utf-8")
 
 
-def look(page: Page, settings: Settings) -> tuple[Evidence, tuple[int, int], list[Array]]:
+def look(page: JudgedPage, settings: Settings) -> tuple[Evidence, tuple[int, int], list[Array]]:
     """What is seen of a page, its size in working px, and its true strokes."""
     scan = read_scan(page.image, settings)
     lines, _ = split_solids(scan, settings)

@@ -26,7 +26,7 @@ def write(drawings: Sequence[tuple[str, Drawing]], path: str | PathLike[str]) ->
         path: the .blend file, made or overwritten.
 
     Raises:
-        InvoluteError: Blender's Python module is not installed, or the file can't be written.
+        InvoluteError: Blender's Python module can't be loaded, or the file can't be written.
     """
     scene = _empty_scene()
     for name, drawing in drawings:
@@ -65,14 +65,12 @@ def write_sequence(
 def _empty_scene() -> bpy.types.Scene:
     """A fresh scene; preferences stay: this may run inside Blender, with the extension enabled."""
     from ..engine import InvoluteError
+    from . import system_libraries
 
     try:
         import bpy
     except ImportError as error:
-        raise InvoluteError(
-            "Writing .blend files needs Blender: install the extra 'blender', or run "
-            "blender -b --command involute."
-        ) from error
+        raise InvoluteError(system_libraries.cannot_load(error)) from error
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True, load_ui=False)
     return bpy.context.scene
 

@@ -85,6 +85,23 @@ def test_imports_run_one_way():
     assert wrong == []
 
 
+def test_what_is_not_shipped_has_its_order_too():
+    """Synthesis needs no more of the engine than its values, training nothing of the benchmarks."""
+    allowed = {
+        "synthesis": ("synthesis", "engine.values", "engine.errors"),
+        "training": ("training", "synthesis", "engine"),
+    }
+    wrong = [
+        f"{name} -> {other}"
+        for name, tree in trees().items()
+        for other, _ in imported(name, ast.walk(tree))
+        if not f"{other}.".startswith(
+            tuple(f"{room}." for room in allowed.get(name.partition(".")[0], ROOMS))
+        )
+    ]
+    assert wrong == []
+
+
 def test_no_circle_of_imports():
     graph = nx.DiGraph()
     for name, tree in trees().items():
