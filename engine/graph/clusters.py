@@ -12,11 +12,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..values import PlanarGraph
+from ..values import Array, PlanarGraph
 from .continuations import ALONE, Continuations, Fits, best_pairing, pairs_within
 from .topology import connected, lengths
-
-Array = np.ndarray
 
 LINK = 4.0  # px; branchings linked by less are one blob
 SHARED = 60.0  # px; the longest piece that may carry two lines at once

@@ -15,9 +15,8 @@ from itertools import combinations
 import numpy as np
 
 from ..arrays.sampling import sample
+from ..values import Array
 from .courses import Halves, direction
-
-Array = np.ndarray
 
 SAMPLES = 17  # points of a curve within the blob, exits included
 ALONE = 1.0  # cost of a half-branch that runs on into none

@@ -13,9 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays.sampling import sample
-from ..values import PlanarGraph
-
-Array = np.ndarray
+from ..values import Array, PlanarGraph
 
 WINDOW = 16  # points of a half-branch, outside its blob, that tell where it goes
 REACH = 1.6  # px; a second line nearer than this bends the ridge of a first one noticeably

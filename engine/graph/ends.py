@@ -11,9 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..arrays.sampling import sample
-from ..values import PlanarGraph
-
-Array = np.ndarray
+from ..values import Array, PlanarGraph
 
 _BACK, _AHEAD, _STEP = 3.0, 3.0, 0.25  # px searched before and after the skeleton's end
 LEFT = 0.6

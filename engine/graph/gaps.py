@@ -12,11 +12,9 @@ from dataclasses import replace
 import numpy as np
 
 from ..arrays.sampling import sample
-from ..values import PlanarGraph
+from ..values import Array, PlanarGraph
 from .nearby import near_pairs
 from .topology import lengths
-
-Array = np.ndarray
 
 WIDEST = 2.0  # pen widths between the ends of two centerlines: a gap of one pen width in the ink
 LEAST = 3.0  # px, bridged however fine the pen is

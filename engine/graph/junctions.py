@@ -13,14 +13,12 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays.sampling import sample
-from ..values import PlanarGraph
+from ..values import Array, PlanarGraph
 from .clusters import find_blobs
 from .continuations import SAMPLES, Continuations, best_pairing, extend, pairs_within
 from .courses import Halves, read_halves
 from .shared_ridges import told_apart
 from .topology import connected, join
-
-Array = np.ndarray
 
 MERGE = 1.4  # px; crossings nearer than this are one junction
 TOUCH = 0.6  # px; curves that come this near touch

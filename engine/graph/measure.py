@@ -7,9 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..arrays.sampling import sample
-from ..values import LineMaps, PlanarGraph, Scan
-
-Array = np.ndarray
+from ..values import Array, LineMaps, PlanarGraph, Scan
 
 _STEP = 0.5  # px between the samples across a line
 _ALONG = 4  # points on either side that agree on a width

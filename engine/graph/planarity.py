@@ -9,12 +9,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..values import PlanarGraph
+from ..values import Array, PlanarGraph
 from .courses import spoilt
 from .nearby import near_pairs
 from .topology import join
-
-Array = np.ndarray
 
 _SAME = 1.0  # px; a crossing this near to a vertex of both branches is that vertex
 _WITHIN = 1e-4  # of a segment at its ends that count as outside

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
-Array = np.ndarray
+from ..values import Array
 
 SIGMA = 0.8  # px; 0.7 to 0.9 separates parallels 2.5 px apart and still averages pixel noise
 FAINT = 0.1  # a line may fade to this probability ...

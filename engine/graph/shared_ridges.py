@@ -14,10 +14,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..arrays.sampling import sample
+from ..values import Array
 from .continuations import FADE, SAMPLES, pairs_within
 from .courses import Halves
-
-Array = np.ndarray
 
 NEAR = 1.6  # px; curves that come nearer are one ridge there
 SHALLOW = np.cos(np.radians(40.0))  # steeper ones have a clear ridge right up to their crossing

@@ -13,8 +13,6 @@ import numpy as np
 
 from ..values import PlanarGraph
 
-Array = np.ndarray
-
 _PARABOLA = np.array([-3, 12, 17, 12, -3]) / 35
 
 

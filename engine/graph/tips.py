@@ -12,12 +12,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..values import PlanarGraph
+from ..values import Array, PlanarGraph
 from .continuations import ALONE, Continuations
 from .courses import read_halves
 from .topology import lengths, select
-
-Array = np.ndarray
 
 SPAN = 5  # points on either side that tell the angle of a bend
 SHARP = np.cos(np.radians(50.0))

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..values import PlanarGraph
+from ..values import Array, PlanarGraph
 from .chains import follow
-
-Array = np.ndarray
 
 
 def select(graph: PlanarGraph, keep: Array) -> PlanarGraph:

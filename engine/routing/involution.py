@@ -12,9 +12,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from ..values import Pair
-
-Array = np.ndarray
+from ..values import Array, Pair
 
 MAX_LISTED_DEGREE = 10  # 9,496 involutions
 

@@ -7,10 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..values import Array
 from .shared import Page
 from .walk import Walk
-
-Array = np.ndarray
 
 
 @dataclass(frozen=True, eq=False)

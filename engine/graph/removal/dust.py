@@ -8,8 +8,6 @@ from ...settings import Settings
 from ...values import PlanarGraph
 from ..topology import connected, lengths, means, select
 
-Array = np.ndarray
-
 _SPECK = 0.25  # pen widths of ink that a piece needs beyond Settings.min_length
 _FULL_INK = 80  # percentile of strength that counts as the full ink of the page
 _FAINT = 0.5  # share of the full ink below which a piece is as likely a scratch as a line

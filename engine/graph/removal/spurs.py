@@ -12,10 +12,8 @@ import cv2
 import numpy as np
 
 from ...arrays.sampling import sample
-from ...values import LineMaps, PlanarGraph
+from ...values import Array, LineMaps, PlanarGraph
 from ..topology import join, lengths, select
-
-Array = np.ndarray
 
 _NO_END, _END = 0.1, 0.5  # of the end map near a tip
 _SEEN = 0.5  # of the junction map near a fork: 24 of 25 true ones have more, every other false one

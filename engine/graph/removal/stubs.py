@@ -10,10 +10,8 @@ from __future__ import annotations
 import numpy as np
 
 from ...settings import Settings
-from ...values import PlanarGraph
+from ...values import Array, PlanarGraph
 from ..topology import connected, join, lengths, select
-
-Array = np.ndarray
 
 _TIP, _BETWEEN = 1.5, 2.0  # how many times as long as a loose stroke it must be
 

@@ -17,12 +17,10 @@ import numpy as np
 
 from ... import weights
 from ...arrays.sampling import sample
-from ...values import LineMaps, PlanarGraph
+from ...values import Array, LineMaps, PlanarGraph
 from ..continuations import pairs_within
 from ..topology import join, lengths, means, select
 from .spurs import seen_near
-
-Array = np.ndarray
 
 WEIGHTS = weights.FOLDER / "undrawn.npz"
 SURE = 0.5  # probability from which on a branch goes
