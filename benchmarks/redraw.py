@@ -37,7 +37,7 @@ def main(archive: str, scan: str, result: str = "") -> None:
     _show(bpy.context.active_object)
     clock = _Clock()
     view = bpy.context.window_manager.involute_view
-    shown = _module("operators.view_state").shown_in(bpy.context)
+    shown = _module("operators.view.view_state").shown_in(bpy.context)
     rows = {"junctions": len(shown.table), "strokes": len(shown.trace.drawing.strokes)}
     view.show_overlay = False
     rows["without the overlay"] = {"redraw": _redraws()}

@@ -14,6 +14,7 @@ import zlib
 from collections.abc import Sequence
 from dataclasses import fields
 from itertools import pairwise
+from math import prod
 from pathlib import Path
 from typing import Any
 
@@ -23,10 +24,23 @@ from ..drawing import Drawing
 from ..errors import InvoluteError
 from ..settings import Settings
 from ..values import Alternative, Array, PlanarGraph, Routing, Stroke
+from .soundness import check
 from .whole_file import write_text
 
 FORMAT, VERSION = "involute drawing", 1
 _DTYPES = ("float32", "int32", "uint8", "bool")
+# Values in one array; a page of 8192 px full of hatching has 4 million. Bounds what is unpacked.
+_MOST_VALUES = 100_000_000
+_DAMAGED = (
+    AttributeError,
+    IndexError,
+    KeyError,
+    OverflowError,
+    RecursionError,
+    TypeError,
+    ValueError,
+    zlib.error,
+)
 
 
 def write(drawing: Drawing, path: Path) -> None:
@@ -97,7 +111,7 @@ def read(text: str, name: str = "The file") -> Drawing:
                 f"reads up to {VERSION}); update Involute to open it."
             )
         return _drawing(document)
-    except (AttributeError, IndexError, KeyError, TypeError, ValueError, zlib.error) as error:
+    except _DAMAGED as error:
         raise InvoluteError(
             f"{name} isn't a drawing of Involute or is damaged; trace the picture again."
         ) from error
@@ -122,25 +136,8 @@ def _drawing(document: dict[str, Any]) -> Drawing:
         scale=float(document.get("scale", 1.0)),
         region_colors=_unpacked(document.get("region_colors")),
     )
-    _check(drawing)
+    check(drawing)
     return drawing
-
-
-def _check(drawing: Drawing) -> None:
-    """Refuse what would only fail later, somewhere else."""
-    graph, routing = drawing.graph, drawing.routing
-    halves = 2 * graph.branch_count
-    partner = routing.partner
-    sound = (
-        len(graph.ends) == graph.branch_count
-        and graph.offsets[-1] == len(graph.points)
-        and (halves == 0 or 0 <= graph.ends.min() <= graph.ends.max() < len(graph.vertices))
-        and len(partner) == halves
-        and np.array_equal(partner[partner], np.arange(halves))
-        and len(routing.alternatives) == len(routing.locked) == len(graph.junctions)
-    )
-    if not sound:
-        raise ValueError("graph and routing don't fit")
 
 
 def _strokes(packed: dict[str, Any]) -> list[Stroke]:
@@ -200,8 +197,16 @@ def _unpacked(packed: Any) -> Array | None:
         return None
     if packed["dtype"] not in _DTYPES:
         raise ValueError("an unknown kind of array")
+    shape = tuple(int(side) for side in packed["shape"])
+    count = prod(shape)
+    if min(shape, default=0) < 0 or count > _MOST_VALUES:
+        raise ValueError("an array of an impossible size")
+    size = count * np.dtype(packed["dtype"]).itemsize
     try:
-        raw = zlib.decompress(base64.b64decode(packed["data"], validate=True))
+        inflate = zlib.decompressobj()
+        raw = inflate.decompress(base64.b64decode(packed["data"], validate=True), size + 1)
     except binascii.Error as error:
         raise ValueError("damaged array") from error
-    return np.frombuffer(raw, packed["dtype"]).reshape(packed["shape"]).copy()
+    if len(raw) != size:
+        raise ValueError("an array that is not as long as it says")
+    return np.frombuffer(raw, packed["dtype"]).reshape(shape).copy()
