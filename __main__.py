@@ -4,37 +4,25 @@ import handed to it: Blender for .blend files, the benchmark's metrics for `eval
 
 from __future__ import annotations
 
+import signal
 import sys
-from collections.abc import Iterable, Mapping, Sequence
+import threading
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from .engine import Drawing
 
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command line; see `command.cli.main`."""
+    usual = signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    alone = usual and threading.current_thread() is threading.main_thread()
+    if alone:
+        signal.signal(signal.SIGINT, signal.SIG_DFL)  # nothing to clear away yet: just end
     from .command import cli
+    from .operators.blend_file import BLEND
 
-    return cli.main(
-        argv,
-        writers={".blend": _write_blend},
-        evaluate=_evaluate,
-        sequence_writers={".blend": _write_sequence},
-    )
-
-
-def _write_blend(drawings: Sequence[tuple[str, Drawing]], path: Path) -> None:
-    from .operators import blend_file
-
-    blend_file.write(drawings, path)
-
-
-def _write_sequence(name: str, frames: Iterable[tuple[int, Drawing]], path: Path) -> None:
-    from .operators import blend_file
-
-    blend_file.write_sequence(name, frames, path)
+    if alone:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+    return cli.main(argv, formats=[BLEND], evaluate=_evaluate)
 
 
 def _evaluate(prediction: Path, truth: Path) -> Mapping[str, float]:

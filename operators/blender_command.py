@@ -10,13 +10,9 @@ _handle: object = None
 def run(argv: list[str]) -> int:
     """Run the command line with these arguments and return its exit code."""
     from ..command.cli import main
-    from . import blend_file
+    from .blend_file import BLEND
 
-    return main(
-        argv,
-        writers={".blend": blend_file.write},
-        sequence_writers={".blend": blend_file.write_sequence},
-    )
+    return main(argv, formats=[BLEND])
 
 
 def register() -> None:
