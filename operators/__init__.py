@@ -18,6 +18,7 @@ _VERBS = (
     "tracing.trace",
     "tracing.import_scan",
     "tracing.use_defaults",
+    "tracing.use_preset",
     "sequences.trace_frames",
     "junctions.reroute",
     "junctions.join",

@@ -68,7 +68,10 @@ def take_from_sidebar(operator: bpy.types.Operator, context: bpy.types.Context) 
     """Give an operator the sidebar's settings, but for those that it was called with."""
     settings = scene_settings(context.scene)
     for name in (*NAMES, *PlacingSettings.__annotations__):
-        if name in operator.bl_rna.properties and not operator.properties.is_property_set(name):
+        if (
+            name in operator.properties.bl_rna.properties
+            and not operator.properties.is_property_set(name)
+        ):
             setattr(operator, name, getattr(settings, name))
 
 

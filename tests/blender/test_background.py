@@ -187,3 +187,13 @@ def test_new_scenes_begin_with_the_defaults_of_the_preferences(bpy, part):
 def test_no_file_chosen_is_said(bpy, tmp_path):
     with pytest.raises(RuntimeError, match="Choose one picture file"):
         bpy.ops.involute.import_scan(filepath=str(tmp_path) + "/")
+
+
+def test_presets_set_every_setting(bpy, part):
+    use_preset, settings = part("operators.tracing.use_preset"), part("engine.settings")
+    trace_settings = part("operators.tracing.trace_settings")
+    for name, (_, _, wanted) in use_preset.PRESETS.items():
+        bpy.context.scene.involute.pen_width = 33.0
+        assert bpy.ops.involute.use_preset(preset=name) == {"FINISHED"}
+        chosen = trace_settings.engine_settings(bpy.context.scene.involute)
+        assert chosen == settings.Settings(**wanted)

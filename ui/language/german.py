@@ -529,6 +529,37 @@ TEXTS = {
     "Doubt times the length of stroke that another answer changes": (
         "Zweifel mal Länge der Striche, die eine andere Antwort ändert"
     ),
+    # presets
+    "Use Preset": "Vorgabe verwenden",
+    "Set all trace settings to what suits a kind of drawing": (
+        "Alle Einstellungen so wählen, wie sie zu einer Art von Zeichnung passen"
+    ),
+    "Preset": "Vorgabe",
+    "What kind of drawing it is": "Was für eine Zeichnung es ist",
+    "Ink": "Tusche",
+    "Pen drawings on paper; the defaults": (
+        "Federzeichnungen auf Papier; die Standardeinstellungen"
+    ),
+    "Pencil": "Bleistift",
+    "Soft lines of changing darkness, crumbs left out; no solid blacks": (
+        "Weiche Linien wechselnder Schwärze, Krümel weggelassen; keine Schwarzflächen"
+    ),
+    "Brush and Marker": "Pinsel und Marker",
+    "Broad, swelling lines in few points, thick places not taken for solids": (
+        "Breite, schwellende Linien mit wenigen Punkten; dicke Stellen gelten nicht als Flächen"
+    ),
+    "Blueprint": "Blaupause",
+    "Light lines on dark paper, all in one ink, corners kept sharp": (
+        "Helle Linien auf dunklem Papier, alle in einer Farbe, mit scharfen Ecken"
+    ),
+    "Binarised Animation Lines": "Binarisierte Animationslinien",
+    "Hard black and colored lines without grey, closed regions filled": (
+        "Harte schwarze und farbige Linien ohne Grau, geschlossene Gebiete gefüllt"
+    ),
+    "Comic Page": "Comicseite",
+    "Ink with solid blacks, all in one ink, specks of the print left out": (
+        "Tusche mit Schwarzflächen, alles in einer Farbe, Druckpunkte weggelassen"
+    ),
     "Next Junction": "Nächste Kreuzung",
     "Previous Junction": "Vorherige Kreuzung",
     # what can't be done
