@@ -88,7 +88,7 @@ class _Clock:
     def __init__(self) -> None:
         self.reset()
         self._again = ""
-        overlay = _module("ui.overlay")
+        overlay = _module("ui.overlay.overlay")
         overlay.unregister()
         for draw, when in (
             (overlay.draw_rings_and_routes, "POST_VIEW"),
@@ -98,7 +98,7 @@ class _Clock:
                 self._twice(overlay, draw), (), "WINDOW", when
             )
             overlay._handles.append(handle)
-        for module in (overlay, _module("ui.cards_drawing")):
+        for module in (overlay, _module("ui.overlay.cards")):
             module.kept = self._with_timed_batches(module.kept)
 
     def reset(self) -> None:

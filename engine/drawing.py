@@ -17,9 +17,8 @@ from .errors import InvoluteError
 from .routing import checked_pairs, route
 from .settings import Settings
 from .strokes import Page, build, walk
-from .values import Junction, Pair, PlanarGraph, Routing, Scan, Stroke
+from .values import Array, Junction, Pair, PlanarGraph, Routing, Scan, Stroke
 
-Array = np.ndarray
 Fill = tuple[Array, ...]
 
 STROKE_SETTINGS = ("smoothing", "curve", "tolerance")  # change nothing but the last stage
