@@ -227,9 +227,9 @@ def _unpacked(base: Drawing, packed: bytes) -> tuple[Array, Array]:
 
 
 def _checked(base: Drawing, partner: Array, locked: Array) -> Drawing:
-    from ...engine.formats.soundness import involution
+    from ...engine.soundness import check_involution
 
-    involution(base.graph, partner)
+    check_involution(base.graph, partner)
     return base.with_routing(partner, locked)
 
 
