@@ -8,6 +8,7 @@ Every stage takes the value of the stage before it and returns a new one; see `v
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from os import PathLike
 from time import perf_counter
 
@@ -18,8 +19,10 @@ from .drawing import Drawing
 from .errors import Cancelled
 from .fills.solids import split_solids
 from .graph import build_graph, measure, sweep, trim, without_pencil
+from .graph.lifts import cut_at_lifts
 from .ink.unmixing import without_inks
 from .routing import route
+from .routing.corners import clues
 from .scan import read_scan
 from .scan.registration import set_aside
 from .settings import Settings
@@ -80,6 +83,11 @@ def vectorize(
         trimmed = trim(graph, routing.partner, settings)
         if trimmed is not graph:
             graph = measure(trimmed, lines, maps)
+            routing = route(graph, settings)
+        cut, evidence = cut_at_lifts(graph, lines, maps)
+        seen = clues(evidence)
+        if seen is not None and len(seen):
+            graph = replace(cut, clues=seen)
             routing = route(graph, settings)
     with clock("strokes"):
         drawing = Drawing.from_routing(graph, routing, scan, settings, fills)

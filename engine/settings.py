@@ -26,6 +26,7 @@ _RANGES: dict[str, tuple[float, float]] = {
     "pen_width": (0.0, 500.0),
     "min_length": (0.0, 100.0),
     "smoothing": (0.0, 1.0),
+    "corners": (-1.0, 1.0),
     "tolerance": (0.0, 50.0),
 }
 
@@ -54,6 +55,8 @@ class Settings:
         min_length: strokes shorter than this many pen widths that hang on nothing are dropped, and
             those up to twice as long that hang on other lines.
         smoothing: 0 keeps every wobble, 1 is very smooth.
+        corners: whether strokes end where only two lines meet: 0 = where it looks as if the pen
+            was lifted, -1 = nowhere (they run through), 1 = wherever it may have been.
         router: what pairs the half-branches: "network", "geometric" or "auto".
 
     How many points
@@ -74,6 +77,7 @@ class Settings:
     align: tuple[tuple[float, float], ...] = ()
     min_length: float = 1.0
     smoothing: float = 0.3
+    corners: float = 0.0
     router: Router = "auto"
     tolerance: float = 0.15
     curve: Curve = "polyline"

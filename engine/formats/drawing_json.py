@@ -21,6 +21,7 @@ import numpy as np
 
 from ..drawing import Drawing
 from ..errors import InvoluteError
+from ..routing import with_corners
 from ..settings import Settings
 from ..values import Alternative, Array, PlanarGraph, Routing, Stroke
 from .whole_file import write_text
@@ -106,14 +107,9 @@ def read(text: str, name: str = "The file") -> Drawing:
 def _drawing(document: dict[str, Any]) -> Drawing:
     known = {f.name for f in fields(Settings)}
     graph = PlanarGraph(**{k: _unpacked(v) for k, v in document["graph"].items()})
-    routing = document["routing"]
-    alternatives = tuple(
-        tuple(Alternative(tuple((a, b) for a, b in pairs), p) for pairs, p in ways)
-        for ways in routing.pop("alternatives")
-    )
     drawing = Drawing(
         graph=graph,
-        routing=Routing(**{k: _unpacked(v) for k, v in routing.items()}, alternatives=alternatives),
+        routing=_routing(document["routing"], graph),
         strokes=tuple(_strokes(document["strokes"])),
         fills=tuple(_fills(document["fills"])),
         size=(int(document["size"][0]), int(document["size"][1])),
@@ -124,6 +120,15 @@ def _drawing(document: dict[str, Any]) -> Drawing:
     )
     _check(drawing)
     return drawing
+
+
+def _routing(packed: dict[str, Any], graph: PlanarGraph) -> Routing:
+    alternatives = tuple(
+        tuple(Alternative(tuple((a, b) for a, b in pairs), p) for pairs, p in ways)
+        for ways in packed.pop("alternatives")
+    )
+    arrays = {name: _unpacked(values) for name, values in packed.items()}
+    return with_corners(Routing(**arrays, alternatives=alternatives), graph)
 
 
 def _check(drawing: Drawing) -> None:
@@ -137,7 +142,7 @@ def _check(drawing: Drawing) -> None:
         and (halves == 0 or 0 <= graph.ends.min() <= graph.ends.max() < len(graph.vertices))
         and len(partner) == halves
         and np.array_equal(partner[partner], np.arange(halves))
-        and len(routing.alternatives) == len(routing.locked) == len(graph.junctions)
+        and len(routing.alternatives) == len(routing.locked) == len(graph.places)
     )
     if not sound:
         raise ValueError("graph and routing don't fit")
