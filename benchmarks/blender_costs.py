@@ -20,10 +20,10 @@ import cv2
 import numpy as np
 from involute import package
 from involute.engine import Drawing, Settings, Stroke, vectorize
-from involute.operators.grease_pencil import layers, rerouting, state
-from involute.operators.grease_pencil.placement import front_view
-from involute.operators.junctions.junction_table import JunctionTable
+from involute.operators.grease_pencil import routing_change, state, writing
+from involute.operators.grease_pencil.core.pixel_map import front_view
 from involute.operators.tracing.trace import new_object
+from involute.operators.view.junction_table import JunctionTable
 from involute.ui.overlay import colors, overlay_geometry
 
 _RUNS = 7
@@ -61,7 +61,7 @@ def write_ten_thousand() -> Row:
 
     def write() -> None:
         data = new_object("Many").data
-        layers.write(data, 1, drawing, front_view(drawing.size), 1)
+        writing.write(data, 1, drawing, front_view(drawing.size), 1)
 
     return "write 10,000 strokes of 50 points", _milliseconds(write), 200
 
@@ -74,13 +74,13 @@ def reroute_among(strokes: int) -> Row:
         drawing = drawing.reroute(next(ends), ())
     data, place = new_object("Woven").data, front_view(drawing.size)
     key = state.add(data, drawing, place, "woven")
-    layers.write(data, 1, drawing, place, key)
+    writing.write(data, 1, drawing, place, key)
     junctions = iter(drawing.junctions)
 
     def reroute() -> None:
         junction = next(j for j in junctions if len(j.alternatives) > 2)
         pairs = next(a.pairs for a in junction.alternatives if a.pairs != junction.pairs)
-        rerouting.change(data, 1, key, lambda d: d.reroute(junction.index, pairs))
+        routing_change.change_routing(data, 1, key, lambda d: d.reroute(junction.index, pairs))
 
     reroute()
     return f"reroute one junction of {len(drawing.strokes)} strokes", _milliseconds(reroute), 30
@@ -104,7 +104,7 @@ def look_up(junctions: int) -> Row:
     drawing = woven(int(np.ceil(np.sqrt(junctions))))
     data, place = new_object("Still").data, front_view(drawing.size)
     key = state.add(data, drawing, place, "still")
-    layers.write(data, 1, drawing, place, key)
+    writing.write(data, 1, drawing, place, key)
 
     def redraw() -> None:
         (found,) = state.keys_at(data, 1)

@@ -13,67 +13,50 @@ import sys
 import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import closing
-from dataclasses import Field, fields, replace
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, get_args, get_origin, get_type_hints
+from typing import TYPE_CHECKING, Any
 
 from ..engine.errors import InvoluteError
-from ..engine.settings import Settings
+from ..engine.formats import FORMATS, Format, either
+from ..engine.settings import ABOUT, DEFAULTS, Settings
 from . import batch, planning
 from . import sequence_command as sequence
+from .setting_options import option
 
 if TYPE_CHECKING:
     from ..engine.drawing import Drawing
 
-Writer = Callable[[Sequence[tuple[str, "Drawing"]], Path], None]
 Evaluate = Callable[[Path, Path], Mapping[str, float]]
 
 DONE, FAILED, WRONG_USAGE, STOPPED = 0, 1, 2, 130
 
-_HELP = {
-    "polarity": "which side is ink: dark lines on light, light lines on dark, or look",
-    "pen_width": "typical width of a line in px; 0 = measure it",
-    "provider": "what finds the centre of the lines; 'given' = the input already is such an image",
-    "solids": "trace solid black areas as lines too, instead of making them fills",
-    "inks": "make all strokes black instead of the colour of their ink",
-    "ignore_inks": "inks that are not traced, such as blue or blue,gray",
-    "marks": "trace scan borders, punched holes and registration marks too",
-    "regions": "fill the closed regions between the lines, in the colour that the page has there",
-    "min_length": "drop strokes shorter than this many pen widths; up to twice that on other lines",
-    "smoothing": "0 keeps every wobble, 1 is very smooth",
-    "router": "what decides how strokes run through junctions",
-    "tolerance": "how far a simplified stroke may stray from the traced line, in px",
-    "curve": "what the strokes are made of",
-    "device": "where the networks run",
-}
-
 
 def main(
     argv: Sequence[str] | None = None,
-    writers: Mapping[str, Writer] | None = None,
+    formats: Sequence[Format] = (),
     evaluate: Evaluate | None = None,
-    sequence_writers: Mapping[str, sequence.Writer] | None = None,
 ) -> int:
     """Run the command line.
 
     Args:
         argv: the arguments, without the program's name; None = those of this process.
-        writers: suffix -> function that writes (name, drawing) pairs to one file of that format.
+        formats: what drawings can be written to, besides the engine's own formats.
         evaluate: function that compares two SVG files, for `involute evaluate`.
-        sequence_writers: the same as writers, for the (frame, drawing) pairs of a sequence.
 
     Returns:
         0 when all went well, 1 when something failed, 2 for wrong usage, 130 after Ctrl-C.
     """
+    known = (*FORMATS, *formats)
     try:
-        options = _parser().parse_args(argv)
+        options = _parser(known).parse_args(argv)
     except SystemExit as stop:  # argparse has said why
         return int(stop.code or 0)
     try:
         if options.command == "trace" and (options.sequence or options.parts):
-            return _trace_sequence(options, sequence_writers or {})
+            return _trace_sequence(options, known)
         if options.command == "trace":
-            return _trace(options, writers or {})
+            return _trace(options, known)
         if options.command == "farm-job":
             print(sequence.write_farm_job(options, _settings(options)))
             return DONE
@@ -103,7 +86,7 @@ def _say(sentence: str, code: int) -> int:
 # --- what can be asked -----------------------------------------------------------------------
 
 
-def _parser() -> argparse.ArgumentParser:
+def _parser(formats: Sequence[Format] = FORMATS) -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="involute", description="Turn scanned line drawings into editable strokes."
     )
@@ -120,10 +103,13 @@ def _parser() -> argparse.ArgumentParser:
         "-o",
         "--output",
         metavar="OUT",
-        help="a file that ends in .svg, .json, .png or .blend, or a folder",
+        help=f"a file that ends in {either(f.suffix for f in formats)}, or a folder",
     )
     trace.add_argument(
-        "--format", metavar="LIST", help="formats for a folder, such as svg,json (default: svg)"
+        "--format",
+        metavar="LIST",
+        help=f"formats for a folder, such as svg,json (default: {formats[0].name}); "
+        + "; ".join(f"{f.name}: {f.about}" for f in formats),
     )
     trace.add_argument("--report", metavar="FILE", help="write times and counts as JSON")
     trace.add_argument("--overwrite", action="store_true", help="replace outputs that exist")
@@ -188,24 +174,23 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _add_settings(parser: argparse.ArgumentParser) -> None:
-    """One option for every setting."""
+    """One option for every setting that can be typed."""
     group = parser.add_argument_group("settings")
-    types = get_type_hints(Settings)
-    for setting in _optional():
-        option, text = setting.name.replace("_", "-"), _HELP[setting.name]
-        if types[setting.name] is bool:
-            name = f"--no-{option}" if setting.default else f"--{option}"
-            does = "store_false" if setting.default else "store_true"
-            group.add_argument(name, dest=setting.name, action=does, help=text)
+    for name, about in ABOUT.items():
+        default, text = DEFAULTS[name], (about.tip[0].lower() + about.tip[1:]).replace("%", "%%")
+        if about.kind is bool:
+            does, text = ("store_false", about.off) if default else ("store_true", text)
+            group.add_argument(option(name), dest=name, action=does, help=text)
             continue
-        kind: dict[str, Any] = {"type": float, "metavar": "X"}
-        if get_origin(types[setting.name]) is Literal:
-            kind = {"choices": get_args(types[setting.name])}
-        elif get_origin(types[setting.name]) is tuple:
+        kind: dict[str, Any] = {"type": about.kind, "metavar": "X"}
+        if about.kind is tuple:
             kind = {"type": _names, "metavar": "LIST"}
-        if setting.default != ():
+            text += f" (such as {','.join(about.values[:2])}); of {', '.join(about.values)}"
+        elif about.choices:
+            kind = {"choices": about.values}
+        if default != ():
             text += " (default: %(default)s)"
-        group.add_argument(f"--{option}", default=setting.default, help=text, **kind)
+        group.add_argument(option(name), default=default, help=text, **kind)
     group.add_argument(
         "--centerline",
         dest="provider",
@@ -213,10 +198,6 @@ def _add_settings(parser: argparse.ArgumentParser) -> None:
         const="given",
         help="the input is a centerline image, white on black; the same as --provider given",
     )
-
-
-def _optional() -> list[Field[Any]]:
-    return [setting for setting in fields(Settings) if setting.name in _HELP]
 
 
 def _names(text: str) -> tuple[str, ...]:
@@ -231,7 +212,7 @@ def _count(text: str) -> int:
 
 def _settings(options: argparse.Namespace) -> Settings:
     try:
-        return Settings(**{setting.name: getattr(options, setting.name) for setting in _optional()})
+        return Settings(**{name: getattr(options, name) for name in ABOUT})
     except InvoluteError as error:
         raise _UsageError(str(error)) from None
 
@@ -239,19 +220,16 @@ def _settings(options: argparse.Namespace) -> Settings:
 # --- trace -----------------------------------------------------------------------------------
 
 
-def _trace(options: argparse.Namespace, writers: Mapping[str, Writer]) -> int:
+def _trace(options: argparse.Namespace, formats: Sequence[Format]) -> int:
     settings = _settings(options)
     if not options.output:
         raise _UsageError("Say where the drawings go with -o.")
     if options.start is not None or options.step != 1 or options.align or not options.follow:
         raise _UsageError("--start, --step, --align and --no-follow need --sequence.")
     try:
-        target = planning.target(options.output, options.format)
+        target = planning.target(options.output, options.format, formats)
     except InvoluteError as error:
         raise _UsageError(str(error)) from None
-    for suffix in target.suffixes:
-        if suffix == ".blend" and suffix not in writers:
-            raise InvoluteError("Writing .blend needs Blender; install the extra 'blender'.")
 
     failures: dict[str, str] = {}
     sources = []
@@ -273,6 +251,7 @@ def _trace(options: argparse.Namespace, writers: Mapping[str, Writer]) -> int:
     elif not target.path.parent.is_dir():
         raise InvoluteError(f"Can't write {target.path}: its folder doesn't exist; make it first.")
 
+    writers = {f.suffix: f.write_many for f in target.formats if f.write_many}
     outcomes = _run(pages, settings, options, writers) if pages else {}
     failed = [page for page, outcome in outcomes.items() if outcome.error]
     if options.report:
@@ -310,7 +289,7 @@ def _run(
     pages: Sequence[planning.Page],
     settings: Settings,
     options: argparse.Namespace,
-    writers: Mapping[str, Writer],
+    writers: Mapping[str, Callable[..., None]],
 ) -> dict[planning.Page, batch.Outcome]:
     """Trace the pages; a drawing for a format of `writers` waits as JSON until all are traced."""
     with tempfile.TemporaryDirectory(prefix="involute-") as folder:
@@ -345,7 +324,7 @@ def _run(
 def _write_waiting(
     waiting: Mapping[planning.Page, Path],
     outcomes: Mapping[planning.Page, batch.Outcome],
-    writers: Mapping[str, Writer],
+    writers: Mapping[str, Callable[..., None]],
 ) -> dict[planning.Page, str]:
     """Hand the drawings to the extra writers, all that go to one file together.
 
@@ -438,10 +417,10 @@ class _Bar:
             self._bar.update(self._finished + fraction - self._bar.n)
 
 
-def _trace_sequence(options: argparse.Namespace, writers: Mapping[str, sequence.Writer]) -> int:
+def _trace_sequence(options: argparse.Namespace, formats: Sequence[Format]) -> int:
     settings = _settings(options)
     try:
-        plan = sequence.plan(options, settings, writers)
+        plan = sequence.plan(options, settings, formats)
     except InvoluteError as error:
         raise _UsageError(str(error)) from None
     with _Bar(len(plan.frames)) as bar:
@@ -451,7 +430,7 @@ def _trace_sequence(options: argparse.Namespace, writers: Mapping[str, sequence.
             if outcome.error:
                 bar.say(f"{Path(frame.path).name}: {outcome.error}")
 
-        result = sequence.run(plan, writers, progress)
+        result = sequence.run(plan, progress)
     if result.warning:
         _say(f"warning: {result.warning}", DONE)
     if options.report:

@@ -11,13 +11,11 @@ from __future__ import annotations
 import json
 import shlex
 from collections.abc import Iterable, Sequence
-from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
 from ..engine.errors import InvoluteError
 from ..engine.formats.whole_file import whole_file, write_text
-from ..engine.settings import Settings
 from .planning import make_folder
 
 _LONGEST = 1024  # characters of a parameter's value
@@ -124,21 +122,6 @@ def frame_ranges(numbers: Iterable[int]) -> str:
             spans.append([number, number])
     text = ",".join(f"{a}-{b}" if b > a else f"{a}" for a, b in spans)
     return text if len(text) <= _LONGEST else f"{spans[0][0]}-{spans[-1][1]}"
-
-
-def settings_options(settings: Settings) -> list[str]:
-    """The arguments of `involute trace` for settings that differ from the defaults."""
-    words: list[str] = []
-    for setting in fields(Settings):
-        value = getattr(settings, setting.name)
-        option = setting.name.replace("_", "-")
-        if value == setting.default or setting.name == "align":
-            continue
-        if isinstance(value, bool):
-            words.append(f"--{option}" if value else f"--no-{option}")
-        else:
-            words += [f"--{option}", ",".join(value) if isinstance(value, tuple) else str(value)]
-    return words
 
 
 def _path(name: str, flow: str, is_folder: bool, label: str) -> dict[str, Any]:

@@ -10,9 +10,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..engine.errors import InvoluteError
+from ..engine.formats import Format, either
 
 IMAGES = frozenset({".png", ".jpg", ".jpeg", ".tif", ".tiff", ".webp", ".bmp"})
-FORMATS = ("svg", "json", "png", "blend")
 
 
 @dataclass(frozen=True)
@@ -20,8 +20,13 @@ class Target:
     """Where the drawings go: one file, or a folder and the formats to write into it."""
 
     path: Path
-    suffixes: tuple[str, ...]
+    formats: tuple[Format, ...]
     is_file: bool
+
+    @property
+    def shared(self) -> bool:
+        """Whether all drawings go into one file."""
+        return self.is_file and self.formats[0].write_many is not None
 
 
 @dataclass(frozen=True)
@@ -34,28 +39,34 @@ class Page:
     outputs: tuple[Path, ...]
 
 
-def target(output: str, formats: str | None) -> Target:
+def target(output: str, chosen: str | None, formats: Sequence[Format]) -> Target:
     """Understand OUT and --format.
+
+    Args:
+        output: a file or a folder.
+        chosen: names of formats with commas between, or None.
+        formats: all that there are; the first is the default.
 
     Raises:
         InvoluteError: they don't fit together.
     """
     path = Path(output)
     suffix = path.suffix.lower()
-    if suffix.lstrip(".") in FORMATS and not path.is_dir():
-        if formats:
+    known = {f.name: f for f in formats}
+    if suffix.lstrip(".") in known and not path.is_dir():
+        if chosen:
             raise InvoluteError("Give --format only with a folder as output.")
-        return Target(path, (suffix,), True)
-    if suffix and not path.is_dir() and not formats:
+        return Target(path, (known[suffix.lstrip(".")],), True)
+    if suffix and not path.is_dir() and not chosen:
         raise InvoluteError(
-            f"Can't write {path.name}; choose a name that ends in .svg, .json, .png or .blend, "
-            "or a folder."
+            f"Can't write {path.name}; choose a name that ends in "
+            f"{either(f.suffix for f in formats)}, or a folder."
         )
-    names = [name.strip().lower().lstrip(".") for name in (formats or "svg").split(",")]
-    unknown = [name for name in names if name not in FORMATS]
-    if unknown:
-        raise InvoluteError(f"There is no format {unknown[0]!r}; choose from {', '.join(FORMATS)}.")
-    return Target(path, tuple(dict.fromkeys(f".{name}" for name in names)), False)
+    names = [n.strip().lower().lstrip(".") for n in (chosen or formats[0].name).split(",")]
+    for name in names:
+        if name not in known:
+            raise InvoluteError(f"There is no format {name!r}; choose from {', '.join(known)}.")
+    return Target(path, tuple(known[name] for name in dict.fromkeys(names)), False)
 
 
 def images(inputs: Iterable[str]) -> Iterator[Path]:
@@ -94,13 +105,12 @@ def pages(sources: Sequence[tuple[Path, int]], target: Target) -> list[Page]:
         InvoluteError: several drawings for one file that can hold only one.
     """
     sources = list({path.absolute(): (path, count) for path, count in sources}.values())
-    shared = target.is_file and target.suffixes == (".blend",)
-    if target.is_file and len(sources) > 1 and not shared:
+    if target.is_file and len(sources) > 1 and not target.shared:
         raise InvoluteError(
-            f"{len(sources)} images can't go into one {target.suffixes[0]}; "
+            f"{len(sources)} images can't go into one {target.formats[0].suffix}; "
             "give a folder as output, or a .blend."
         )
-    alone = target.is_file and not shared
+    alone = target.is_file and not target.shared
     stems = [target.path.stem if alone else path.stem for path, _ in sources]
     twice = Counter(stem.lower() for stem in stems)
     names: list[str] = []
@@ -121,8 +131,8 @@ def pages(sources: Sequence[tuple[Path, int]], target: Target) -> list[Page]:
             title = name if count == 1 else f"{name}-{page + 1:0{digits}d}"
             outputs = (
                 (target.path,)
-                if shared
-                else tuple(folder / f"{title}{suffix}" for suffix in target.suffixes)
+                if target.shared
+                else tuple(folder / f"{title}{f.suffix}" for f in target.formats)
             )
             found.append(Page(path, page, title, outputs))
     return found

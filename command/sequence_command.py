@@ -3,24 +3,24 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import closing
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..engine.errors import InvoluteError
+from ..engine.formats import Format, either
 from ..engine.formats.whole_file import whole_file
 from ..engine.sequence.frames import Frame, FrameRange, number_frames, number_pages
 from ..engine.settings import Settings
 from . import batch, planning
+from .setting_options import settings_options
 
 if TYPE_CHECKING:
     from ..engine.drawing import Drawing
 
 _NAMED = 8  # pages that a warning names
-
-Writer = Callable[[str, Iterator[tuple[int, "Drawing"]], Path], None]
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -76,7 +76,7 @@ def write_farm_job(options: argparse.Namespace, settings: Settings) -> Path:
     from . import farm
 
     frames = find_frames([options.images], options.start, options.step, options.frames)
-    words = farm.settings_options(settings)
+    words = settings_options(settings)
     words += [] if options.start is None else ["--start", str(options.start)]
     words += [] if options.step == 1 else ["--step", str(options.step)]
     words += ["--align"] * options.align + ["--no-follow"] * (not options.follow)
@@ -149,20 +149,19 @@ def unaligned(pages: Iterable[Frame]) -> str:
     )
 
 
-def plan(options: argparse.Namespace, settings: Settings, suffixes: Mapping[str, Any]) -> Plan:
+def plan(options: argparse.Namespace, settings: Settings, formats: Sequence[Format]) -> Plan:
     """Check the arguments.
-
-    Args:
-        suffixes: what a moving drawing can be written to, apart from a folder of drawings.
 
     Raises:
         InvoluteError: they don't fit together.
     """
-    target = planning.target(options.output, options.format) if options.output else None
+    target = planning.target(options.output, options.format, formats) if options.output else None
     if target is None and not options.parts:
         raise InvoluteError("Say where the drawings go with -o, or with --parts.")
-    if target and target.is_file and target.path.suffix.lower() not in suffixes:
-        raise InvoluteError("A sequence goes into a .blend, or into a folder with --format.")
+    moving = [f.suffix for f in formats if f.write_sequence]
+    if target and target.is_file and target.formats[0].suffix not in moving:
+        places = either([*(f"a {suffix}" for suffix in moving), "a folder with --format"])
+        raise InvoluteError(f"A sequence goes into {places}.")
     replacing = options.overwrite or options.resume
     if target and target.is_file and target.path.exists() and not replacing:
         raise InvoluteError(f"{target.path} exists already; use --overwrite to replace it.")
@@ -210,7 +209,7 @@ def find_frames(
     return found
 
 
-def run(plan: Plan, writers: Mapping[str, Writer], progress: Callable[..., None]) -> Result:
+def run(plan: Plan, progress: Callable[..., None]) -> Result:
     """Trace and write; `progress(frame, outcome)` as in `trace_sequence`.
 
     Raises:
@@ -244,7 +243,7 @@ def run(plan: Plan, writers: Mapping[str, Writer], progress: Callable[..., None]
         good = ((frame, d) for frame, d in frames if not isinstance(d, InvoluteError))
         if plan.target.is_file:
             with whole_file(plan.target.path) as part:
-                writers[plan.target.path.suffix.lower()](plan.target.path.stem, good, part)
+                plan.target.formats[0].write_sequence(plan.target.path.stem, good, part)
         else:
             _write_folder(plan, good)
     return result
@@ -260,5 +259,5 @@ def _write_folder(plan: Plan, drawings: Iterator[tuple[int, Drawing]]) -> None:
         for frame in plan.frames
     }
     for frame, drawing in drawings:
-        for suffix in plan.target.suffixes:
-            drawing.save(folder / f"{names[frame]}{suffix}")
+        for kind in plan.target.formats:
+            drawing.save(folder / f"{names[frame]}{kind.suffix}")

@@ -10,7 +10,6 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from os import PathLike
-from typing import Any
 
 import numpy as np
 
@@ -41,6 +40,8 @@ class Drawing:
     scale: input pixels per working pixel, the unit in which routing judges lengths.
     aligned: False when the page was to be aligned and had nothing to align by; not kept in files.
     region_colors: (R, 3) uint8 sRGB of `regions`; None = all are white.
+    page: what all strokes share, for rerouting; None = found from the graph when first needed. Not
+        kept in files.
     """
 
     graph: PlanarGraph
@@ -53,6 +54,7 @@ class Drawing:
     scale: float = 1.0
     aligned: bool = True
     region_colors: Array | None = None
+    page: Page | None = field(default=None, repr=False)
 
     @classmethod
     def from_routing(
@@ -78,18 +80,18 @@ class Drawing:
             settings=settings,
             scale=float(scan.scale),
             aligned=scan.aligned,
+            page=page,
         )
         if settings.regions and scan.color is not None:
             from .fills.region_colors import region_colors
 
             colors = region_colors(drawing.regions, graph, scan)
             drawing = replace(drawing, region_colors=colors)
-        vars(drawing)["_page"] = page
         return drawing
 
     def with_seconds(self, seconds: Mapping[str, float]) -> Drawing:
         """The same drawing with the time that each stage took."""
-        return self._replaced(seconds=dict(seconds))
+        return replace(self, seconds=dict(seconds))
 
     @cached_property
     def junctions(self) -> tuple[Junction, ...]:
@@ -178,7 +180,7 @@ class Drawing:
         drawing = self._with_partner(partner)
         whole = np.zeros(len(self.graph.places), bool)
         whole[: len(locked)] = locked[: len(whole)]
-        return drawing._replaced(routing=replace(drawing.routing, locked=whole))
+        return replace(drawing, routing=replace(drawing.routing, locked=whole))
 
     def with_corners(self, bias: float) -> Drawing:
         """Decide all corners that are not locked anew, without asking the picture again.
@@ -197,7 +199,7 @@ class Drawing:
         on = goes_on(self.routing.pair_score[len(self.routing.pairs) - len(free) :][free], bias)
         partner = self.routing.partner.copy()
         partner[pairs] = np.where(on[:, None], pairs[:, ::-1], pairs)
-        return self._with_partner(partner)._replaced(settings=settings)
+        return replace(self._with_partner(partner), settings=settings)
 
     def cut(self, stroke: int, point: tuple[float, float]) -> Drawing:
         """End a stroke at its place nearest to a point, px, where another one begins; locked.
@@ -240,7 +242,7 @@ class Drawing:
         """Route the junctions and corners that are not locked anew, given those that are."""
         fixed = {place.index: place.pairs for place in self._places if place.locked}
         routing = route(_scaled(self.graph, 1 / self.scale), self.settings, fixed)
-        return self._with_partner(routing.partner)._replaced(routing=routing)
+        return replace(self._with_partner(routing.partner), routing=routing)
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write the drawing; the suffix says how (.json keeps everything)."""
@@ -257,14 +259,7 @@ class Drawing:
 
     @cached_property
     def _page(self) -> Page:
-        return Page.of(self.graph, self.settings)
-
-    def _replaced(self, **changes: Any) -> Drawing:
-        """A changed copy, which inherits what all strokes of the page share."""
-        changed = replace(self, **changes)
-        if "_page" in vars(self):
-            vars(changed)["_page"] = self._page
-        return changed
+        return self.page or Page.of(self.graph, self.settings)
 
     def _with_locked(self, junctions: Iterable[int], value: bool) -> Drawing:
         locked = self.routing.locked.copy()
@@ -272,7 +267,7 @@ class Drawing:
             if not 0 <= junction < len(locked):
                 raise InvoluteError(f"There is no junction {junction}; there are {len(locked)}.")
             locked[junction] = value
-        return self._replaced(routing=replace(self.routing, locked=locked))
+        return replace(self, routing=replace(self.routing, locked=locked))
 
     def _stroke(self, number: int) -> Stroke:
         if not 0 <= number < len(self.strokes):
@@ -298,9 +293,7 @@ class Drawing:
         kept = [s for s in self.strokes if not any(s is other for other in gone)]
         made = build(page, walk(routing.partner, branches))
         strokes = sorted([*kept, *made], key=lambda s: int(s.branches.min()) >> 1)
-        drawing = replace(self, graph=graph, routing=routing, strokes=tuple(strokes))
-        vars(drawing)["_page"] = page
-        return drawing
+        return replace(self, graph=graph, routing=routing, strokes=tuple(strokes), page=page)
 
     def _with_partner(self, partner: Array) -> Drawing:
         """Walk anew what the changed half-branches belong to; keep all other strokes."""
@@ -313,7 +306,7 @@ class Drawing:
         made = build(self._page, walk(partner, branches))
         strokes = sorted([*kept, *made], key=lambda s: int(s.branches.min()) >> 1)
         routing = replace(self.routing, partner=np.asarray(partner, np.int32))
-        return self._replaced(strokes=tuple(strokes), routing=routing)
+        return replace(self, strokes=tuple(strokes), routing=routing, page=self._page)
 
 
 def _scaled(graph: PlanarGraph, scale: float) -> PlanarGraph:

@@ -1,4 +1,13 @@
-"""What the user can do in Blender: one file per verb. `grease_pencil` alone touches strokes."""
+"""What the user can do in Blender: one file per verb.
+
+tracing         pictures become Grease Pencil objects
+sequences       numbered drawings become keyframes
+junctions       what is done to the junctions of a traced drawing
+view            what is looked at and where it lies on the screen; `ui` draws it
+grease_pencil   the data layer: it alone touches strokes
+blend_file, blender_command   .blend files for the command line, which Blender runs as well
+job, language   threads that Blender does not wait for; words in the user's language
+"""
 
 from __future__ import annotations
 
@@ -24,8 +33,8 @@ _VERBS = (
 
 
 def _classes() -> list[type]:
-    from .junctions.view_state import INVOLUTE_PG_view
     from .tracing.trace_settings import INVOLUTE_PG_trace_settings
+    from .view.view_state import INVOLUTE_PG_view
 
     verbs = [import_module(f".{name}", __package__) for name in _VERBS]
     operators = [cls for verb in verbs for cls in verb.CLASSES]
@@ -33,11 +42,12 @@ def _classes() -> list[type]:
 
 
 def register() -> None:
+    """Register the operators, the settings in scenes, the view state and the command."""
     import bpy
 
     from . import blender_command
-    from .junctions import view_state
     from .tracing import trace_settings
+    from .view import view_state
 
     for cls in _classes():
         bpy.utils.register_class(cls)
@@ -48,6 +58,7 @@ def register() -> None:
 
 
 def unregister() -> None:
+    """Take all of it back, in the opposite order."""
     import bpy
 
     from . import blender_command

@@ -10,19 +10,17 @@ _handle: object = None
 def run(argv: list[str]) -> int:
     """Run the command line with these arguments and return its exit code."""
     from ..command.cli import main
-    from . import blend_file
+    from .blend_file import BLEND
 
-    return main(
-        argv,
-        writers={".blend": blend_file.write},
-        sequence_writers={".blend": blend_file.write_sequence},
-    )
+    return main(argv, formats=[BLEND])
 
 
 def register() -> None:
+    """Make `blender --command involute` known."""
     global _handle
     _handle = bpy.utils.register_cli_command("involute", run)
 
 
 def unregister() -> None:
+    """Forget it again."""
     bpy.utils.unregister_cli_command(_handle)

@@ -17,6 +17,7 @@ import numpy as np
 
 from .composed_pages import SOURCES, Library
 from .media import MEDIA, draw, line_spacing, sample
+from .pen_lifts import KINDS, Habit, lifted
 from .sheet_of_paper import paper, scan, shadow
 from .true_graph import single_lines
 
@@ -42,6 +43,9 @@ def main() -> None:
     parser.add_argument("--pages", type=int, default=48)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--only", nargs="+", choices=list(SOURCES), help="these sets alone")
+    parser.add_argument(
+        "--habit", default="as drawn", choices=KINDS, help="where the pen is lifted"
+    )
     args = parser.parse_args()
     args.out.mkdir(parents=True, exist_ok=True)
     rng = np.random.default_rng(args.seed)
@@ -51,7 +55,9 @@ def main() -> None:
     for number in range(args.pages):
         name, medium = f"page_{number:03d}", media[number % len(media)]
         strokes = _drawing(rng, library, args.only)
-        image, sheet = _drawn(rng, strokes, medium)
+        pen = float(rng.uniform(*_PENS[medium]))
+        strokes = lifted(rng, strokes, Habit.drawn(rng, pen, args.habit))
+        image, sheet = _drawn(rng, strokes, medium, pen)
         cv2.imwrite(str(args.out / f"{name}.jpg"), image, [cv2.IMWRITE_JPEG_QUALITY, 88])
         (args.out / f"{name}.svg").write_text(_svg(strokes, image.shape), "utf-8")
         style = f"{medium}, {sheet}"
@@ -78,11 +84,13 @@ def _drawing(
             return strokes
 
 
-def _drawn(rng: np.random.Generator, strokes: list[Array], medium: str) -> tuple[Array, str]:
-    """The page as a scanner sees it, (H, W) uint8, and what its paper is."""
+def _drawn(
+    rng: np.random.Generator, strokes: list[Array], medium: str, pen: float
+) -> tuple[Array, str]:
+    """The page as a scanner sees it, (H, W) uint8, and what its paper is; pen: its width, px."""
     width, height = np.ceil(np.max([line.max(0) for line in strokes], 0) + _MARGIN).astype(int)
     samples = sample([line.astype(np.float32) for line in strokes], _SIDE)
-    pen = min(float(rng.uniform(*_PENS[medium])), 0.8 * line_spacing(samples, _SIDE))
+    pen = min(pen, 0.8 * line_spacing(samples, _SIDE))
     ink, _ = draw(rng, samples, MEDIA[medium], pen, _SIDE)
     sheet = str(rng.choice(["white", "paper", "shadow"], p=[0.4, 0.35, 0.25]))
     page = np.ones_like(ink)

@@ -14,6 +14,7 @@ import numpy as np
 
 Array = np.ndarray
 
+KINDS = ("as drawn", "lifting", "mixed")
 _ARM = 6.0  # px on both sides that tell a corner of a true stroke
 _LEAST = np.radians(30.0)  # what turns less is no corner
 _SHARP = np.radians(60.0)  # what turns more is lifted at as often as the habit says
@@ -38,11 +39,12 @@ class Habit:
     exact: float
 
     @staticmethod
-    def drawn(rng: np.random.Generator, pen: float) -> Habit:
-        """A random habit: four pages in ten as their artist made them, as many that lift at nearly
-        every corner, the others mixed."""
-        kind = rng.random()
-        corners = 0.0 if kind < 0.4 else rng.uniform(0.85, 1.0) if kind < 0.8 else rng.random()
+    def drawn(rng: np.random.Generator, pen: float, kind: str = "") -> Habit:
+        """A random habit; without a kind (see `KINDS`) four pages in ten are as their artist made
+        them, as many are lifted at nearly every corner, the others are mixed."""
+        kind = kind or KINDS[int(np.searchsorted([0.4, 0.8], rng.random(), "right"))]
+        share = {"as drawn": 0.0, "lifting": rng.uniform(0.85, 1.0), "mixed": rng.random()}
+        corners = share[kind]
         seams = rng.choice([0.0, 1 / 1500, 1 / 400]) if corners else 0.0
         exact = rng.choice([0.0, 1.0, rng.random()], p=[0.4, 0.2, 0.4])
         along, across = rng.uniform(0.2, 1.2) * pen, rng.uniform(0.1, 0.7) * pen

@@ -26,6 +26,7 @@ def _modules(names: tuple[str, ...]) -> list[ModuleType]:
 
 
 def register() -> None:
+    """Register all that is seen."""
     import bpy
 
     for module in _modules(_WITH_CLASSES):
@@ -36,6 +37,7 @@ def register() -> None:
 
 
 def unregister() -> None:
+    """Take all of it back, in the opposite order."""
     import bpy
 
     for module in reversed(_modules(_WITH_REGISTER)):

@@ -14,6 +14,7 @@ _added: list[tuple[bpy.types.KeyMap, bpy.types.KeyMapItem]] = []
 
 
 def register() -> None:
+    """Add our keys to the 3D viewport."""
     configuration = bpy.context.window_manager.keyconfigs.addon
     if configuration is None:
         return
@@ -30,6 +31,7 @@ def register() -> None:
 
 
 def unregister() -> None:
+    """Take them away again."""
     for keymap, item in _added:
         keymap.keymap_items.remove(item)
     _added.clear()

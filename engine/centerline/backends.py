@@ -13,7 +13,6 @@ import numpy as np
 
 from .. import weights as shipped
 from ..errors import InvoluteError
-from ..settings import Device
 from ..values import Array
 
 Infer = Callable[[Array], Array]
@@ -21,7 +20,7 @@ Infer = Callable[[Array], Array]
 
 
 @cache
-def load(weights: Path, device: Device) -> Infer:
+def load(weights: Path, device: str) -> Infer:
     """The network in a file, on a device; loaded once per process.
 
     Raises:

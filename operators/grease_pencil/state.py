@@ -24,9 +24,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...engine import InvoluteError
-from . import layers as gp
-from .placement import Placement
-from .stroke_arrays import TRACE
+from . import cels
+from .core.pixel_map import PixelMap
+from .core.stroke_arrays import TRACE
 
 if TYPE_CHECKING:
     import bpy
@@ -45,7 +45,7 @@ class Trace:
 
     key: int
     drawing: Drawing
-    placement: Placement
+    pixel_map: PixelMap
     source: str
     stamp: str
 
@@ -54,7 +54,7 @@ def keys_at(data: bpy.types.ID, frame: int) -> list[int]:
     """The traces whose strokes are shown at a frame, those with most strokes first."""
     if data.get(PROPERTY) is None:
         return []
-    columns = [gp.read_column(drawing, TRACE) for _, drawing in gp.drawings_at(data, frame)]
+    columns = [cels.read_column(drawing, TRACE) for _, drawing in cels.cels_at(data, frame)]
     counts: Counter[int] = Counter()
     for column in columns:
         if column is None or not len(column):
@@ -73,10 +73,10 @@ def keys_at_exactly(data: bpy.types.ID, frame: int) -> list[int]:
     return keys_at(data, frame) if there else []
 
 
-def placement_in(data: bpy.types.ID) -> Placement | None:
+def pixel_map_in(data: bpy.types.ID) -> PixelMap | None:
     """Where the pixels of a traced drawing in this data-block lie; None when there is none."""
     entry = next(iter(_traces(data).values()), None)
-    return Placement.from_list(entry["placement"]) if entry else None
+    return PixelMap.from_list(entry["placement"]) if entry else None
 
 
 def load(data: bpy.types.ID, key: int) -> Trace:
@@ -93,7 +93,7 @@ def load(data: bpy.types.ID, key: int) -> Trace:
     if drawing is None:
         drawing = _with_routing(_base(entry), entry["routing"])
         _remember(stamp, drawing)
-    return Trace(key, drawing, Placement.from_list(entry["placement"]), entry["source"], stamp)
+    return Trace(key, drawing, PixelMap.from_list(entry["placement"]), entry["source"], stamp)
 
 
 def stamp(data: bpy.types.ID, key: int) -> str:
@@ -114,10 +114,10 @@ def settled(data: bpy.types.ID, key: int, drawing: Drawing) -> Drawing:
     return base.with_routing(drawing.routing.partner, drawing.routing.locked)
 
 
-def add(data: bpy.types.ID, drawing: Drawing, placement: Placement, source: str) -> int:
+def add(data: bpy.types.ID, drawing: Drawing, pixel_map: PixelMap, source: str) -> int:
     """Store a new trace and return its key."""
     key = _free_key(data, drawing, source)
-    store(data, Trace(key, drawing, placement, source, ""))
+    store(data, Trace(key, drawing, pixel_map, source, ""))
     return key
 
 
@@ -140,7 +140,7 @@ def store(data: bpy.types.ID, trace: Trace) -> Trace:
         "base": base,
         "routing": routing,
         "stamp": stamp,
-        "placement": trace.placement.as_list(),
+        "placement": trace.pixel_map.as_list(),
         "source": trace.source,
     }
     _remember(stamp, trace.drawing)
@@ -152,15 +152,15 @@ def separate(data: bpy.types.ID, frame: int, trace: Trace) -> Trace:
 
     A copied keyframe carries the same keys; a change to one must not change the other.
     """
-    here = [drawing for _, drawing in gp.drawings_at(data, frame)]
-    everywhere = list(gp.all_drawings(data))
+    here = [drawing for _, drawing in cels.cels_at(data, frame)]
+    everywhere = list(cels.all_cels(data))
     if _users(everywhere, trace.key) <= _users(here, trace.key):
         return trace
     key = _free_key(data, trace.drawing, f"{trace.source}@{frame}")
     for drawing in here:
-        column = gp.read_column(drawing, TRACE)
+        column = cels.read_column(drawing, TRACE)
         if column is not None and (column == trace.key).any():
-            gp.set_column(drawing, TRACE, np.where(column == trace.key, key, column))
+            cels.set_column(drawing, TRACE, np.where(column == trace.key, key, column))
     return store(data, replace(trace, key=key))
 
 
@@ -171,7 +171,7 @@ def _counted(column: np.ndarray) -> dict[int, int]:
 
 def _users(drawings: list[object], key: int) -> int:
     """How many of the drawings have strokes of that trace."""
-    columns = (gp.read_column(drawing, TRACE) for drawing in drawings)
+    columns = (cels.read_column(drawing, TRACE) for drawing in drawings)
     return sum(1 for c in columns if c is not None and (c == key).any())
 
 

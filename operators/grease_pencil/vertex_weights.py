@@ -12,7 +12,7 @@ from dataclasses import replace
 import bpy
 import numpy as np
 
-from .stroke_arrays import WEIGHT, Column, Curves, column
+from .core.stroke_arrays import WEIGHT, Column, Curves, column
 
 Array = np.ndarray
 
@@ -20,19 +20,19 @@ _PREFIX = "vertex group "  # keeps the names of groups apart from those of attri
 _STORED = ".involute_weight_"
 
 
-def with_weights(data: bpy.types.ID, frame: int, pages: Sequence[Curves]) -> list[Curves]:
+def with_weights(data: bpy.types.ID, frame: int, cels: Sequence[Curves]) -> list[Curves]:
     """The strokes of each layer that has a drawing at a frame, with a column per vertex group.
 
     Args:
-        pages: as `grease_pencil.drawings_at` gives them, bottom layer first.
+        cels: as `grease_pencil.cels_at` gives them, bottom layer first.
     """
     user = next((obj for obj in bpy.data.objects if obj.data == data), None)
     groups = [group.name for group in user.vertex_groups] if user else []
     if not groups:
-        return list(pages)
+        return list(cels)
     return [
-        replace(page, points=page.points | _columns(groups, weights, int(page.offsets[-1])))
-        for page, weights in zip(pages, _read(data, frame, groups), strict=True)
+        replace(cel, points=cel.points | _columns(groups, weights, int(cel.offsets[-1])))
+        for cel, weights in zip(cels, _read(data, frame, groups), strict=True)
     ]
 
 

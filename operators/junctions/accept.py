@@ -6,8 +6,8 @@ import bpy
 from bpy.props import FloatProperty
 
 from ..language import message
+from ..view.view_state import shown_in
 from .junction_operator import JunctionOperator
-from .view_state import shown_in
 
 
 class INVOLUTE_OT_accept(JunctionOperator, bpy.types.Operator):
@@ -26,6 +26,7 @@ class INVOLUTE_OT_accept(JunctionOperator, bpy.types.Operator):
     )
 
     def execute(self, context: bpy.types.Context) -> set[str]:
+        """Lock them, and say how many there were."""
         before = int(shown_in(context).table.locked.sum())
         result = self.change(context, lambda d: d.accept_above(self.probability / 100))
         if result == {"FINISHED"}:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import bpy
 
 from ..language import message
+from ..view.view_state import shown_in
 from .junction_operator import JunctionOperator
-from .view_state import shown_in
 
 
 class INVOLUTE_OT_ask_again(JunctionOperator, bpy.types.Operator):
@@ -16,6 +16,7 @@ class INVOLUTE_OT_ask_again(JunctionOperator, bpy.types.Operator):
     bl_label = "Ask Again"
 
     def execute(self, context: bpy.types.Context) -> set[str]:
+        """Route anew, and say how many junctions changed."""
         before = shown_in(context).trace.drawing
         result = self.change(context, lambda drawing: drawing.ask_again())
         if result == {"FINISHED"}:

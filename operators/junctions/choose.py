@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import bpy
-import numpy as np
 from bpy.props import BoolProperty, IntProperty
 
 from ..language import label
-from .card_layout import Card, card_at, layout
+from ..view.card_layout import card_at
+from ..view.on_screen import cards_of, junction_under
+from ..view.view_state import Shown, make_current, redraw, shown_in, view_of
 from .junction_operator import JunctionOperator
-from .under_mouse import junction_under, places_on_screen
-from .view_state import Shown, make_current, redraw, shown_in, view_of
 
 _STEPS = {
     "WHEELUPMOUSE": -1,
@@ -43,6 +42,7 @@ class INVOLUTE_OT_choose(JunctionOperator, bpy.types.Operator):
     )
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Show the cards; with `pick` of the junction under the mouse."""
         if context.region_data is None:
             return {"CANCELLED"}
         if self.pick:
@@ -65,6 +65,7 @@ class INVOLUTE_OT_choose(JunctionOperator, bpy.types.Operator):
         return {"RUNNING_MODAL"}
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Point, step, apply or leave."""
         shown = shown_in(context)
         if shown is None or shown.junction is None or not shown.view.choosing:
             return self._leave(context, {"CANCELLED"})
@@ -123,18 +124,6 @@ class INVOLUTE_OT_choose(JunctionOperator, bpy.types.Operator):
         context.workspace.status_text_set(None)
         redraw(context)
         return result
-
-
-def cards_of(context: bpy.types.Context, shown: Shown) -> list[Card]:
-    """The cards of the current junction's alternatives in the region of the context."""
-    junction = shown.junction
-    (anchor,) = places_on_screen(context, shown, np.array([junction.position]))
-    region = context.region
-    if not np.isfinite(anchor).all():
-        anchor = (region.width / 2, region.height / 2)
-    scale = context.preferences.system.ui_scale
-    size = region.width, region.height
-    return layout(len(junction.alternatives), tuple(anchor), size, scale)
 
 
 def step(preview: int, by: int, count: int) -> int:

@@ -6,10 +6,10 @@ import bpy
 import numpy as np
 
 from ..language import message
+from ..view.on_screen import halves_under
+from ..view.picking import nearest_pair
+from ..view.view_state import Shown, make_current, redraw, view_of
 from .junction_operator import JunctionOperator
-from .picking import nearest_pair
-from .under_mouse import halves_under
-from .view_state import Shown, make_current, redraw, view_of
 
 
 class INVOLUTE_OT_drag_join(JunctionOperator, bpy.types.Operator):
@@ -20,6 +20,7 @@ class INVOLUTE_OT_drag_join(JunctionOperator, bpy.types.Operator):
     bl_options = {"INTERNAL"}  # the joining itself is the step to undo
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Begin at the line under the mouse; elsewhere the drag belongs to others."""
         if context.region_data is None:
             return {"CANCELLED"}
         region = context.region
@@ -34,6 +35,7 @@ class INVOLUTE_OT_drag_join(JunctionOperator, bpy.types.Operator):
         return {"RUNNING_MODAL"}
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Draw the line of the drag; where it ends, join."""
         view = view_of(context)
         mouse = event.mouse_region_x, event.mouse_region_y
         if event.type == "MOUSEMOVE":
@@ -69,6 +71,7 @@ class INVOLUTE_OT_separate_under_mouse(JunctionOperator, bpy.types.Operator):
     bl_options = {"INTERNAL"}
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Separate the line under the mouse."""
         if context.region_data is None:
             return {"CANCELLED"}
         found = halves_under(context, (event.mouse_region_x, event.mouse_region_y))

@@ -8,8 +8,8 @@ from bpy.props import BoolProperty, EnumProperty, IntProperty
 from mathutils import Vector
 
 from ..language import message
+from ..view.view_state import Shown, redraw, select, shown_in
 from .junction_operator import JunctionOperator
-from .view_state import Shown, redraw, select, shown_in
 
 _CLOSE_UP = 60.0  # pen widths that the view shows across, at most
 
@@ -27,6 +27,7 @@ class INVOLUTE_OT_go_to_junction(JunctionOperator, bpy.types.Operator):
     )
 
     def execute(self, context: bpy.types.Context) -> set[str]:
+        """Select the junction and look at it."""
         shown = shown_in(context)
         if self.junction >= len(shown.table):
             return {"CANCELLED"}
@@ -54,6 +55,7 @@ class INVOLUTE_OT_step_junction(JunctionOperator, bpy.types.Operator):
     )
 
     def execute(self, context: bpy.types.Context) -> set[str]:
+        """Select the next one of the list and look at it."""
         shown = shown_in(context)
         listed = shown.listed
         if len(listed) == 0:
@@ -81,7 +83,7 @@ def look_at(context: bpy.types.Context, shown: Shown, junction: int) -> None:
     widths = drawing.graph.widths
     pen = float(np.median(widths)) if widths is not None and len(widths) else 3.0
     scale = max(shown.object.matrix_world.to_scale())
-    across = _CLOSE_UP * pen * shown.trace.placement.unit * scale
+    across = _CLOSE_UP * pen * shown.trace.pixel_map.unit * scale
     region_3d.view_distance = min(region_3d.view_distance, across)
 
 

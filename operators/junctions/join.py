@@ -6,8 +6,8 @@ import bpy
 from bpy.props import IntProperty
 
 from ..language import message
+from ..view.view_state import shown_in
 from .junction_operator import JunctionOperator
-from .view_state import shown_in
 
 
 class INVOLUTE_OT_join(JunctionOperator, bpy.types.Operator):
@@ -20,6 +20,7 @@ class INVOLUTE_OT_join(JunctionOperator, bpy.types.Operator):
     second: IntProperty(name="Second", description="Number of the other half-branch", min=0)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
+        """Join the two; whatever else is joined at the junction stays."""
         drawing = shown_in(context).trace.drawing
         two = {self.first, self.second}
         junction = next((j for j in drawing.junctions if two <= set(j.half_branches)), None)

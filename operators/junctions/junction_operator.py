@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 import bpy
 
 from ...engine import InvoluteError
-from ..grease_pencil import rerouting
+from ..grease_pencil.routing_change import change_routing
 from ..language import message
-from .view_state import redraw, select, shown_in
+from ..view.view_state import redraw, select, shown_in
 
 if TYPE_CHECKING:
     from ...engine import Drawing
@@ -23,6 +23,7 @@ class JunctionOperator:
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
+        """Is there a traced drawing to work on? Else say why not."""
         try:
             found = shown_in(context) is not None
         except InvoluteError as problem:
@@ -36,7 +37,7 @@ class JunctionOperator:
         """Change the drawing, its strokes and its state; report what goes wrong."""
         shown = shown_in(context)
         try:
-            trace = rerouting.change(shown.object.data, shown.frame, shown.trace.key, how)
+            trace = change_routing(shown.object.data, shown.frame, shown.trace.key, how)
         except InvoluteError as problem:
             self.report({"ERROR"}, message(problem))
             return {"CANCELLED"}

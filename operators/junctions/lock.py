@@ -6,8 +6,8 @@ import bpy
 from bpy.props import IntProperty
 
 from ..language import message
+from ..view.view_state import shown_in
 from .junction_operator import JunctionOperator
-from .view_state import shown_in
 
 
 class INVOLUTE_OT_lock(JunctionOperator, bpy.types.Operator):
@@ -21,6 +21,7 @@ class INVOLUTE_OT_lock(JunctionOperator, bpy.types.Operator):
     )
 
     def execute(self, context: bpy.types.Context) -> set[str]:
+        """Lock the junction, or unlock it when it is locked."""
         shown = shown_in(context)
         index = shown.view.junction if self.junction < 0 else self.junction
         if not 0 <= index < len(shown.table):

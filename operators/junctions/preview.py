@@ -5,8 +5,8 @@ from __future__ import annotations
 import bpy
 from bpy.props import IntProperty
 
+from ..view.view_state import redraw, view_of
 from .junction_operator import JunctionOperator
-from .view_state import redraw, view_of
 
 
 class INVOLUTE_OT_preview(JunctionOperator, bpy.types.Operator):
@@ -19,6 +19,7 @@ class INVOLUTE_OT_preview(JunctionOperator, bpy.types.Operator):
     alternative: IntProperty(name="Alternative", description="Which alternative", min=0)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
+        """Show the alternative, or stop showing it."""
         view = view_of(context)
         view.preview = -1 if view.preview == self.alternative else self.alternative
         redraw(context)

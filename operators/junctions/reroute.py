@@ -22,6 +22,7 @@ class INVOLUTE_OT_reroute(JunctionOperator, bpy.types.Operator):
     )
 
     def execute(self, context: bpy.types.Context) -> set[str]:
+        """Apply the alternative; only strokes through the junction change."""
         return self.apply_alternative(context, self.junction, self.alternative)
 
 

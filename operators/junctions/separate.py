@@ -6,8 +6,8 @@ import bpy
 from bpy.props import IntProperty
 
 from ..language import message
+from ..view.view_state import select, shown_in
 from .junction_operator import JunctionOperator
-from .view_state import select, shown_in
 
 
 class INVOLUTE_OT_separate(JunctionOperator, bpy.types.Operator):
@@ -24,6 +24,7 @@ class INVOLUTE_OT_separate(JunctionOperator, bpy.types.Operator):
     )
 
     def execute(self, context: bpy.types.Context) -> set[str]:
+        """End one line, or all of the junction; the other pairs stay."""
         shown = shown_in(context)
         junctions = shown.trace.drawing.junctions
         if self.half >= 0:

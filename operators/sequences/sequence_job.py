@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from ...command.batch import Outcome
     from ...engine import Drawing
 
-Result = tuple[int, "Drawing | InvoluteError", bool]
+TracedFrame = tuple[int, "Drawing | InvoluteError", bool]
 
 
 class SequenceJob(Job):
@@ -29,14 +29,14 @@ class SequenceJob(Job):
         self.frames = list(frames)
         super().__init__("{done} of {count} frames")
         self.counts = {"done": 0, "count": len(self.frames)}
-        self._results: SimpleQueue[Result] = SimpleQueue()
+        self._results: SimpleQueue[TracedFrame] = SimpleQueue()
         self.unaligned: list[Frame] = []  # that should have been
         self._kept: set[int] = set()
         self._done = 0
         self._options = {"jobs": jobs, "parts": parts, "follow": follow}
         self._settings = settings
 
-    def results(self) -> list[Result]:
+    def results(self) -> list[TracedFrame]:
         """What came since the last call: (frame, drawing or problem, not traced anew)."""
         found = []
         with suppress(Empty):
@@ -45,6 +45,7 @@ class SequenceJob(Job):
         return found
 
     def work(self) -> None:
+        """Trace frame by frame; what comes is taken by `results`."""
         from ...command import trace_sequence  # brings in OpenCV
 
         tidy(self._options["parts"].parent, used=self._options["parts"])

@@ -8,17 +8,17 @@ from pathlib import Path
 
 import bpy
 from bpy.props import BoolProperty, IntProperty, StringProperty
+from mathutils import Matrix
 
 from ...engine import InvoluteError
 from ...engine.sequence import Frame
-from ..grease_pencil import layers as gp
-from ..grease_pencil import state
-from ..grease_pencil.placement import Placement, front_view, on_empty
+from ..grease_pencil import cels, state, writing
+from ..grease_pencil.core.pixel_map import PixelMap, front_view, on_empty
 from ..language import message
-from ..tracing.background import Tracing
+from ..tracing.background import JobOperator
 from ..tracing.file_choice import ChosenFiles, FileChoice
+from ..tracing.placing import PlacingSettings, place_drawing, placing_values
 from ..tracing.settings_layout import draw_placing, draw_sequence, draw_settings
-from ..tracing.standing import PlacingSettings, placing_values, stand
 from ..tracing.trace import new_object
 from ..tracing.trace_settings import TraceSettings, as_values, engine_settings
 from .playing import frames_of_empty, frames_of_files, plays_frames
@@ -62,7 +62,7 @@ class SequenceSettings:
 
 
 class INVOLUTE_OT_trace_sequence(
-    Tracing, ChosenFiles, SequenceSettings, PlacingSettings, TraceSettings, bpy.types.Operator
+    JobOperator, ChosenFiles, SequenceSettings, PlacingSettings, TraceSettings, bpy.types.Operator
 ):
     """Turn numbered drawings into keyframes of one Grease Pencil object, in the background"""
 
@@ -85,6 +85,7 @@ class INVOLUTE_OT_trace_sequence(
     )
 
     def draw(self, context: bpy.types.Context) -> None:
+        """The settings in Adjust Last Operation."""
         self.layout.use_property_split = True
         self.layout.use_property_decorate = False
         draw_sequence(self.layout, self)
@@ -92,8 +93,9 @@ class INVOLUTE_OT_trace_sequence(
         draw_settings(self.layout, self)
 
     def begin(self, context: bpy.types.Context) -> SequenceJob:
+        """Find the frames, and where they will stand."""
         self._name, self._empty, self._target = "", "", ""
-        self._placement: Placement | None = None
+        self._pixel_map: PixelMap | None = None
         self._written, self._kept, self._failed = 0, 0, []
         options = {"start": self.start if self.own_start else None, "step": self.step}
         empty = context.active_object
@@ -109,11 +111,13 @@ class INVOLUTE_OT_trace_sequence(
                 "Choose a folder of drawings, or select an Empty that plays images or a movie."
             )
         if self.resume:
-            if not gp.is_grease_pencil(context.active_object):
+            if not cels.is_grease_pencil(context.active_object):
                 raise InvoluteError("Make the Grease Pencil object of the sequence the active one.")
             self._target = context.active_object.name
         elif not self._empty:
-            stand(context, (1, 1), self.place, self.pixels_per_metre)  # says now if it can't be
+            place_drawing(
+                context, (1, 1), self.place, self.pixels_per_metre
+            )  # says now if it can't be
         return SequenceJob(
             frames,
             _aligned(engine_settings(self), frames) if self.align else engine_settings(self),
@@ -135,8 +139,8 @@ class INVOLUTE_OT_trace_sequence(
             if self.resume and unchanged and state.keys_at_exactly(obj.data, frame):
                 self._kept += 1
                 continue
-            key = state.add(obj.data, drawing, self._placement, f"{self._name} {frame}")
-            gp.write(obj.data, frame, drawing, self._placement, key, alone=True)
+            key = state.add(obj.data, drawing, self._pixel_map, f"{self._name} {frame}")
+            writing.write(obj.data, frame, drawing, self._pixel_map, key, alone=True)
             self._written += 1
 
     def _object(self, context: bpy.types.Context, size: tuple[int, int]) -> bpy.types.Object:
@@ -146,19 +150,25 @@ class INVOLUTE_OT_trace_sequence(
         """
         obj = bpy.data.objects.get(self._target) if self._target else None
         if obj is not None:
-            self._placement = self._placement or state.placement_in(obj.data) or front_view(size)
+            self._pixel_map = self._pixel_map or state.pixel_map_in(obj.data) or front_view(size)
             return obj
         if empty := bpy.data.objects.get(self._empty):
-            self._placement, matrix = on_empty(empty, size), empty.matrix_world.copy()
+            self._pixel_map, matrix = on_empty(empty, size), empty.matrix_world.copy()
         else:
-            self._placement, matrix = stand(context, size, self.place, self.pixels_per_metre)
+            self._pixel_map, matrix = place_drawing(
+                context, size, self.place, self.pixels_per_metre
+            )
         obj = new_object(self._name)
         obj.matrix_world = matrix
         context.scene.collection.objects.link(obj)
         self._target = obj.name
         return obj
 
+    def _placed(self, context: bpy.types.Context, size: tuple[int, int]) -> tuple[PixelMap, Matrix]:
+        return place_drawing(context, size, self.place, self.pixels_per_metre)
+
     def finish(self, context: bpy.types.Context, job: SequenceJob) -> set[str]:
+        """Select the object and say what came of it."""
         if job.problem:
             self.report({"ERROR"}, message(job.problem))
         if not self._written and not self._kept:
@@ -195,6 +205,7 @@ class INVOLUTE_OT_import_sequence(
     bl_label = "Trace Drawing Sequence"
 
     def execute(self, context: bpy.types.Context) -> set[str]:
+        """Hand the chosen files to the trace."""
         sequence = {name: getattr(self, name) for name in SequenceSettings.__annotations__}
         # One file alone stands for all that are numbered like it.
         names = self.names if len(self.names) > 1 else []
@@ -208,6 +219,7 @@ class INVOLUTE_OT_import_sequence(
         )
 
     def draw(self, context: bpy.types.Context) -> None:
+        """The settings in the file browser."""
         INVOLUTE_OT_trace_sequence.draw(self, context)
 
 

@@ -6,8 +6,8 @@ import bpy
 
 from ...engine import InvoluteError
 from .. import job as jobs
-from ..junctions.view_state import redraw
 from ..language import label, message
+from ..view.view_state import redraw
 
 
 def stage_of(job: jobs.Job) -> str:
@@ -15,7 +15,7 @@ def stage_of(job: jobs.Job) -> str:
     return label(job.stage, **job.counts)
 
 
-class Tracing:
+class JobOperator:
     """Mixin for operators that run a job; they add `begin`, `finish` and, if they like, `take`."""
 
     bl_options = {"REGISTER", "UNDO"}
@@ -33,6 +33,7 @@ class Tracing:
         raise NotImplementedError
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Start the job and wait for it without holding Blender up."""
         if bpy.app.background:
             return self.execute(context)
         if jobs.current is not None:
@@ -50,6 +51,7 @@ class Tracing:
         return {"RUNNING_MODAL"}
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Look in on the job at every tick; let all other events pass."""
         job = jobs.current
         if self.escape_cancels and event.type == "ESC" and event.value == "PRESS":
             job.cancel()
@@ -70,6 +72,7 @@ class Tracing:
         self._stop(context)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
+        """Run the job at once, as scripts and the background want it."""
         job = self._begun(context)
         if job is None:
             return {"CANCELLED"}
@@ -110,9 +113,11 @@ class INVOLUTE_OT_cancel(bpy.types.Operator):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
+        """Is there a job to cancel?"""
         return jobs.current is not None
 
     def execute(self, context: bpy.types.Context) -> set[str]:
+        """Ask the job to stop."""
         jobs.current.cancel()
         return {"FINISHED"}
 

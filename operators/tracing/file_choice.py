@@ -37,6 +37,7 @@ class FileChoice(ChosenFiles, ImportHelper):
 
     @property
     def folder(self) -> str:
+        """The folder that was chosen."""
         return self.directory or str(Path(self.filepath).parent)
 
     def hand_to(self, operator: object, **options: object) -> set[str]:

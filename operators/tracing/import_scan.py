@@ -5,7 +5,7 @@ from __future__ import annotations
 import bpy
 
 from .file_choice import FileChoice
-from .standing import PlacingSettings, placing_values
+from .placing import PlacingSettings, placing_values
 from .trace import INVOLUTE_OT_trace
 from .trace_settings import TraceSettings, as_values
 
@@ -17,11 +17,13 @@ class INVOLUTE_OT_import_scan(FileChoice, PlacingSettings, TraceSettings, bpy.ty
     bl_label = "Trace Scanned Drawings"
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Ask for files, unless they were dropped."""
         if self.filepath or self.files:  # dropped
             return self.execute(context)
         return super().invoke(context, event)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
+        """Hand the chosen files to the trace."""
         return self.hand_to(
             bpy.ops.involute.trace,
             filepath=self.filepath,
@@ -32,6 +34,7 @@ class INVOLUTE_OT_import_scan(FileChoice, PlacingSettings, TraceSettings, bpy.ty
         )
 
     def draw(self, context: bpy.types.Context) -> None:
+        """The settings in the file browser."""
         INVOLUTE_OT_trace.draw(self, context)
 
 

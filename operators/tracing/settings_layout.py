@@ -4,18 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ...engine.settings import ABOUT
+from ...engine.settings import GROUPS as TITLES
 from ..language import label
 
 if TYPE_CHECKING:
     import bpy
 
-GROUPS = (
-    (
-        "What the Drawing Is",
-        ("polarity", "pen_width", "inks", "ignore_inks", "solids", "marks", "regions"),
-    ),
-    ("How Clean", ("min_length", "smoothing", "provider", "router", "device")),
-    ("How Many Points", ("curve", "tolerance")),
+GROUPS = tuple(
+    (title, tuple(name for name, about in ABOUT.items() if about.group == title))
+    for title in TITLES
 )
 
 
@@ -27,7 +25,7 @@ def draw_settings(layout: bpy.types.UILayout, source: object) -> None:
         if body is not None:
             column = body.column()
             for name in names:
-                if name == "ignore_inks":
+                if ABOUT[name].kind is tuple:
                     _flags(column, source, name)
                 else:
                     column.prop(source, name)

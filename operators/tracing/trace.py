@@ -10,24 +10,25 @@ import bpy
 from bpy.props import EnumProperty, StringProperty
 
 from ...engine import InvoluteError
-from ..grease_pencil import layers as gp
-from ..grease_pencil import state
-from ..grease_pencil.placement import Placement, front_view, on_empty
+from ..grease_pencil import cels, state, writing
+from ..grease_pencil.core.pixel_map import PixelMap, front_view, on_empty
 from ..language import message
 from . import sources
-from .background import Tracing
+from .background import JobOperator
 from .file_choice import ChosenFiles
+from .placing import PlacingSettings, place_drawing
 from .settings_layout import draw_placing, draw_settings
 from .sources import Source
-from .standing import PlacingSettings, stand
-from .trace_job import Result, Worker
+from .trace_job import TracedSource, TraceJob
 from .trace_settings import TraceSettings, engine_settings
 
 if TYPE_CHECKING:
     from ...engine import Drawing
 
 
-class INVOLUTE_OT_trace(Tracing, ChosenFiles, PlacingSettings, TraceSettings, bpy.types.Operator):
+class INVOLUTE_OT_trace(
+    JobOperator, ChosenFiles, PlacingSettings, TraceSettings, bpy.types.Operator
+):
     """Turn a scanned drawing into Grease Pencil strokes that run straight through junctions"""
 
     bl_idname = "involute.trace"
@@ -55,10 +56,12 @@ class INVOLUTE_OT_trace(Tracing, ChosenFiles, PlacingSettings, TraceSettings, bp
         options={"SKIP_SAVE"},
     )
 
-    def begin(self, context: bpy.types.Context) -> Worker:
-        return Worker(self._sources(context), engine_settings(self))
+    def begin(self, context: bpy.types.Context) -> TraceJob:
+        """Read the sources and settings."""
+        return TraceJob(self._sources(context), engine_settings(self))
 
-    def finish(self, context: bpy.types.Context, job: Worker) -> set[str]:
+    def finish(self, context: bpy.types.Context, job: TraceJob) -> set[str]:
+        """Write what was traced; say what came of it."""
         if job.cancelled:
             self.report({"INFO"}, message("Tracing was cancelled."))
             return {"CANCELLED"}
@@ -80,6 +83,7 @@ class INVOLUTE_OT_trace(Tracing, ChosenFiles, PlacingSettings, TraceSettings, bp
         return {"FINISHED"}
 
     def draw(self, context: bpy.types.Context) -> None:
+        """The settings in Adjust Last Operation."""
         self.layout.use_property_split = True
         self.layout.use_property_decorate = False
         draw_placing(self.layout, self)
@@ -125,11 +129,11 @@ class INVOLUTE_OT_trace(Tracing, ChosenFiles, PlacingSettings, TraceSettings, bp
             ),
         )
 
-    def _write(self, context: bpy.types.Context, done: Sequence[Result]) -> None:
+    def _write(self, context: bpy.types.Context, done: Sequence[TracedSource]) -> None:
         frame = context.scene.frame_current
         if self.target == "ACTIVE":
             obj = context.active_object
-            if not gp.is_grease_pencil(obj) or not obj.data.is_editable:
+            if not cels.is_grease_pencil(obj) or not obj.data.is_editable:
                 raise InvoluteError("Make a Grease Pencil object of this file the active one.")
             for result in done:
                 put(obj, result, frame, front_view(result.drawing.size))
@@ -137,15 +141,15 @@ class INVOLUTE_OT_trace(Tracing, ChosenFiles, PlacingSettings, TraceSettings, bp
         if context.mode != "OBJECT":
             bpy.ops.object.mode_set(mode="OBJECT")
         places = [
-            stand(context, result.drawing.size, self.place, self.pixels_per_metre)
+            place_drawing(context, result.drawing.size, self.place, self.pixels_per_metre)
             for result in done
         ]
         objects: list[bpy.types.Object] = []
-        for result, (placement, matrix) in zip(done, places, strict=True):
+        for result, (pixel_map, matrix) in zip(done, places, strict=True):
             objects.append(new_object(result.source.name))
             objects[-1].matrix_world = matrix
             context.collection.objects.link(objects[-1])
-            put(objects[-1], result, frame, placement)
+            put(objects[-1], result, frame, pixel_map)
         for other in context.selected_objects:
             other.select_set(False)
         for obj in objects:
@@ -154,6 +158,7 @@ class INVOLUTE_OT_trace(Tracing, ChosenFiles, PlacingSettings, TraceSettings, bp
 
 
 def is_image_empty(obj: bpy.types.Object | None) -> bool:
+    """Is it an Empty that shows an image?"""
     return (
         obj is not None
         and obj.type == "EMPTY"
@@ -164,21 +169,21 @@ def is_image_empty(obj: bpy.types.Object | None) -> bool:
 
 def new_object(name: str) -> bpy.types.Object:
     """A Grease Pencil object without layers, not yet in any collection."""
-    return bpy.data.objects.new(name, gp.collection().new(name))
+    return bpy.data.objects.new(name, cels.collection().new(name))
 
 
-def put(obj: bpy.types.Object, result: Result, frame: int, placement: Placement) -> None:
+def put(obj: bpy.types.Object, result: TracedSource, frame: int, pixel_map: PixelMap) -> None:
     """Write a traced drawing into an object, strokes and routing state.
 
-    An image Empty that shows the picture takes precedence over `placement`.
+    An image Empty that shows the picture takes precedence over `pixel_map`.
     """
     source, drawing = result.source, result.drawing
     empty = bpy.data.objects.get(source.empty) if source.empty else None
     if empty is not None:
-        placement = on_empty(empty, drawing.size)
+        pixel_map = on_empty(empty, drawing.size)
         obj.matrix_world = empty.matrix_world.copy()
-    key = state.add(obj.data, drawing, placement, source.name)
-    gp.write(obj.data, frame, drawing, placement, key)
+    key = state.add(obj.data, drawing, pixel_map, source.name)
+    writing.write(obj.data, frame, drawing, pixel_map, key)
 
 
 CLASSES = (INVOLUTE_OT_trace,)

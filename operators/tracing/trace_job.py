@@ -24,7 +24,7 @@ STAGES = {
 
 
 @dataclass(frozen=True, eq=False)
-class Result:
+class TracedSource:
     """A traced source, or the sentence that says why it could not be traced."""
 
     source: Source
@@ -32,33 +32,36 @@ class Result:
     problem: str = ""
 
 
-class Worker(Job):
+class TraceJob(Job):
     """Traces sources; results: what is done so far."""
 
     def __init__(self, sources: Sequence[Source], settings: Settings) -> None:
         super().__init__(STAGES["scan"])
         self.sources = list(sources)
         self.settings = settings
-        self.results: list[Result] = []
+        self.results: list[TracedSource] = []
 
     def work(self) -> None:
+        """Trace one source after the other; one that fails does not stop the others."""
         for source in self.sources:
             if self.cancelled:
                 return
             self.results.append(self._trace(source))
 
-    def _trace(self, source: Source) -> Result:
+    def _trace(self, source: Source) -> TracedSource:
         from ...engine import vectorize
 
         try:
             drawing = vectorize(source.picture, self.settings, self._tick, page=source.page)
         except (InvoluteError, Cancelled) as problem:
-            return Result(source, None, str(problem))
+            return TracedSource(source, None, str(problem))
         except MemoryError:
-            return Result(source, None, "There is not enough memory for a picture of this size.")
+            return TracedSource(
+                source, None, "There is not enough memory for a picture of this size."
+            )
         except Exception as problem:  # the other sources may be all right
-            return Result(source, None, unexpected(problem))
-        return Result(source, drawing)
+            return TracedSource(source, None, unexpected(problem))
+        return TracedSource(source, drawing)
 
     def _tick(self, stage: str, fraction: float) -> None:
         if self.cancelled:

@@ -15,6 +15,7 @@ class INVOLUTE_OT_use_defaults(bpy.types.Operator):
     bl_options = {"REGISTER", "UNDO"}
 
     def execute(self, context: bpy.types.Context) -> set[str]:
+        """Copy the defaults of the preferences into the scene."""
         package = __package__.removesuffix(".operators.tracing")
         defaults = context.preferences.addons[package].preferences.defaults
         settings = scene_settings(context.scene)

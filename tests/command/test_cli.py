@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from involute.command import cli, planning
 from involute.engine import Drawing, Settings
-from involute.engine.formats import load
+from involute.engine.formats import FORMATS, Format, load
 
 FAST = ["--provider", "classical", "--router", "geometric"]
 
@@ -171,10 +171,11 @@ def test_drawings_are_handed_to_extra_writers(scans, tmp_path):
         path.write_text("blend")
 
     out = tmp_path / "all.blend"
-    assert trace(scans, "-o", out, writers={".blend": write}) == 0
+    blend = Format(suffix=".blend", about="many drawings", write_many=write)
+    assert trace(scans, "-o", out, formats=[blend]) == 0
     assert written == {".blend": [("page1", True), ("page2", True), ("page10", True)]}
     assert out.read_text() == "blend"
-    assert trace(scans / "page1.png", "-o", tmp_path / "x.blend") == 1  # none is there
+    assert trace(scans / "page1.png", "-o", tmp_path / "x.blend") == 2  # there is no such format
 
 
 def test_a_failing_writer_leaves_nothing(tmp_path, capsys):
@@ -183,7 +184,8 @@ def test_a_failing_writer_leaves_nothing(tmp_path, capsys):
         raise OSError(28, "No space left on device")
 
     source, out = page(tmp_path / "in.png"), tmp_path / "out.blend"
-    assert trace(source, "-o", out, writers={".blend": write}) == 1
+    blend = Format(suffix=".blend", about="many drawings", write_many=write)
+    assert trace(source, "-o", out, formats=[blend]) == 1
     assert "disk is full" in capsys.readouterr().err
     assert names(tmp_path) == ["in.png"]
 
@@ -298,7 +300,7 @@ def test_natural_order():
 
 
 def test_outputs_never_collide():
-    target = planning.target("out", "svg,json")
+    target = planning.target("out", "svg,json", FORMATS)
     sources = [(Path(n), 1) for n in ("x/a.png", "y/a.png", "a.png", "A.jpg", "b.tif")]
     sources[-1] = (Path("b.tif"), 12)
     pages = planning.pages(sources, target)

@@ -15,7 +15,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from involute.command import cli
 from involute.command.cli import main
-from involute.command.farm import frame_ranges, settings_options, write_job
+from involute.command.farm import frame_ranges, write_job
+from involute.command.setting_options import settings_options
 from involute.engine import Drawing, InvoluteError, Settings
 from involute.engine.sequence.frames import FrameRange
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 from involute.engine import InvoluteError, Settings
 from involute.engine.routing import route
@@ -133,6 +133,7 @@ def test_lines_of_different_ink_are_not_joined() -> None:
     assert not joined
 
 
+@example(25, 0.4833, 1.0)  # two half-branches leave a junction in exactly one direction
 @given(st.integers(0, 200), st.floats(0, 2 * np.pi), st.floats(0.5, 4))
 def test_routing_ignores_where_how_large_and_which_way_round(
     scribble, seed: int, angle: float, size: float

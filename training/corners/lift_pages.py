@@ -17,7 +17,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 from involute.engine.graph import build_graph, measure, sweep, trim
-from involute.engine.graph.lifts import cut_at_lifts
+from involute.engine.graph.lifts import cut_at_lifts, evidence_size
 from involute.engine.routing import route
 from involute.engine.settings import Settings
 from involute.engine.values import PlanarGraph
@@ -30,9 +30,9 @@ from ..routing.traced import MOST_FALSE, look_ink, look_scan, on_canvas
 Array = np.ndarray
 
 _SCANNED = 0.75  # share of the pages; the others are even ink
-_SIDE = 620.0  # px; larger drawings are drawn smaller or in part, so that tracing stays quick
+_SIDE = 540.0  # px; larger drawings are drawn smaller or in part, so that tracing stays quick
 _PEN = 4.0  # px; a habit moves ends by shares of this
-_PIECE = 100  # pages between two writings of the file
+_PIECE = 40  # pages between two writings of the file
 JOINED, LIFTED, UNKNOWN = 1, 0, -1
 
 
@@ -117,7 +117,7 @@ def _corners(number: int) -> tuple[Array, Array, float]:
             page = labelled(graph, [line / scan.scale for line in strokes])
             if unowned(page) < MOST_FALSE:
                 return seen.astype(np.float16), truth_at(graph, page), habit.corners
-    return np.zeros((0, 0), np.float16), np.zeros(0, np.int8), habit.corners
+    return np.zeros((0, evidence_size()), np.float16), np.zeros(0, np.int8), habit.corners
 
 
 def smaller(rng: np.random.Generator, strokes: list[Array]) -> list[Array]:

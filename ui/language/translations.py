@@ -14,6 +14,7 @@ _CONTEXTS = (
 
 
 def register() -> None:
+    """Make the tables known to Blender."""
     tables = {
         language: {(context, text): said for text, said in table.items() for context in _CONTEXTS}
         for language, table in _LANGUAGES.items()
@@ -22,4 +23,5 @@ def register() -> None:
 
 
 def unregister() -> None:
+    """Forget them again."""
     bpy.app.translations.unregister(__package__)

@@ -16,10 +16,9 @@ import gpu
 import numpy as np
 from gpu_extras.batch import batch_for_shader
 
-from ...operators.junctions.card_layout import Card
-from ...operators.junctions.choose import cards_of
-from ...operators.junctions.junction_words import letters, percent, sentence
-from ...operators.junctions.under_mouse import places_on_screen
+from ...operators.view.card_layout import Card
+from ...operators.view.junction_words import letters, percent, sentence
+from ...operators.view.on_screen import cards_of, places_on_screen
 from .colors import LOOSE
 from .drawn_batches import kept
 from .overlay_geometry import labels, sketch
@@ -27,7 +26,7 @@ from .overlay_geometry import labels, sketch
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from ...operators.junctions.view_state import Shown
+    from ...operators.view.view_state import Shown
 
 Array = np.ndarray
 Rgba = tuple[float, float, float, float]

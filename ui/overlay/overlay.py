@@ -15,7 +15,7 @@ import numpy as np
 from gpu_extras.batch import batch_for_shader
 
 from ...engine import InvoluteError
-from ...operators.junctions.view_state import Shown, shown_in, view_of
+from ...operators.view.view_state import Shown, shown_in, view_of
 from ..panels.preferences import preferences_of
 from . import cards
 from .colors import Color
@@ -59,12 +59,14 @@ def draw_labels() -> None:
 
 
 def register() -> None:
+    """Start drawing over 3D viewports."""
     space = bpy.types.SpaceView3D
     _handles.append(space.draw_handler_add(draw_rings_and_routes, (), "WINDOW", "POST_VIEW"))
     _handles.append(space.draw_handler_add(draw_labels, (), "WINDOW", "POST_PIXEL"))
 
 
 def unregister() -> None:
+    """Stop drawing, and free what was made for it."""
     for handle in _handles:
         bpy.types.SpaceView3D.draw_handler_remove(handle, "WINDOW")
     _handles.clear()
@@ -121,7 +123,7 @@ def _ring_batch(
     shader: gpu.types.GPUShader, shown: Shown, scale: tuple[Color, Color, Color], size: float
 ) -> gpu.types.GPUBatch:
     shape = rings(shown.table, size * pen_width(shown.trace.drawing), scale)
-    places = shown.trace.placement.to_object(shape.points)
+    places = shown.trace.pixel_map.to_object(shape.points)
     return batch_for_shader(
         shader, "LINES", {"pos": places, "color": shape.colors}, indices=shape.edges
     )
@@ -148,7 +150,7 @@ def _route_batches(
         (
             (*route.color, 0.95 if route.joined else 0.6),
             batch_for_shader(
-                shader, "LINE_STRIP", {"pos": shown.trace.placement.to_object(route.points)}
+                shader, "LINE_STRIP", {"pos": shown.trace.pixel_map.to_object(route.points)}
             ),
         )
         for route in routes(shown.trace.drawing, shown.junction, pairs)
@@ -157,7 +159,7 @@ def _route_batches(
 
 def _state(shown: Shown) -> tuple:
     """What the batches of a drawing depend on: its content and where it lies in its object."""
-    return shown.trace.stamp, *shown.trace.placement.as_list()
+    return shown.trace.stamp, *shown.trace.pixel_map.as_list()
 
 
 def _set_up(context: bpy.types.Context, shader: gpu.types.GPUShader, width: float) -> None:

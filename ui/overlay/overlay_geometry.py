@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...operators.junctions.junction_words import letters
-from ...operators.junctions.under_mouse import near_part
+from ...operators.view.junction_words import letters
+from ...operators.view.picking import near_part
 from .colors import LOOSE, STROKES, Color, doubt_colors
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
     from ...engine import Drawing, Junction
-    from ...operators.junctions.junction_table import JunctionTable
+    from ...operators.view.junction_table import JunctionTable
 
 Array = np.ndarray
 

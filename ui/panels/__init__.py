@@ -1,1 +1,1 @@
-"""Sidebar, menus and preferences."""
+"""Sidebar, pie menu, entries in Blender's own menus, presets and preferences."""

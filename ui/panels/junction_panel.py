@@ -14,13 +14,13 @@ from ...operators.junctions.go_to_junction import (
     INVOLUTE_OT_step_junction,
 )
 from ...operators.junctions.join import INVOLUTE_OT_join
-from ...operators.junctions.junction_words import angle, arrow, letters, percent, sentence
 from ...operators.junctions.lock import INVOLUTE_OT_lock
 from ...operators.junctions.preview import INVOLUTE_OT_preview
 from ...operators.junctions.reroute import INVOLUTE_OT_reroute
 from ...operators.junctions.separate import INVOLUTE_OT_separate
-from ...operators.junctions.view_state import Shown, shown_in
 from ...operators.language import label
+from ...operators.view.junction_words import angle, arrow, letters, percent, sentence
+from ...operators.view.view_state import Shown, shown_in
 
 _ROWS = 6
 
@@ -32,6 +32,7 @@ class _Sidebar:
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
+        """Is there a traced drawing whose junctions can be shown?"""
         try:
             return shown_in(context) is not None
         except InvoluteError:
@@ -39,13 +40,17 @@ class _Sidebar:
 
 
 class INVOLUTE_PT_junctions(_Sidebar, bpy.types.Panel):
+    """All junctions: filters, list, steps, and what is done to all of them."""
+
     bl_label = "Junctions"
 
     def draw_header_preset(self, context: bpy.types.Context) -> None:
+        """The switch of the overlay."""
         view = context.window_manager.involute_view
         self.layout.prop(view, "show_overlay", text="", icon="OVERLAY", emboss=False)
 
     def draw(self, context: bpy.types.Context) -> None:
+        """Filters, list and buttons."""
         shown = shown_in(context)
         _filters(self.layout, shown)
         listed = shown.listed
@@ -62,13 +67,17 @@ class INVOLUTE_PT_junctions(_Sidebar, bpy.types.Panel):
 
 
 class INVOLUTE_PT_junction(_Sidebar, bpy.types.Panel):
+    """The current junction: in words, its alternatives, by hand."""
+
     bl_label = "Current Junction"
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
+        """Is there a current junction?"""
         return super().poll(context) and shown_in(context).junction is not None
 
     def draw(self, context: bpy.types.Context) -> None:
+        """The junction in words, its lock, its alternatives."""
         shown = shown_in(context)
         layout, junction = self.layout, shown.junction
         names = letters(shown.trace.drawing, junction)
@@ -94,7 +103,7 @@ def _filters(layout: bpy.types.UILayout, shown: Shown) -> None:
 def _list(layout: bpy.types.UILayout, shown: Shown, listed: np.ndarray) -> None:
     """A page of the list; the table is too large and too short-lived for a UIList's collection."""
     pages = max(1, -(-len(listed) // _ROWS))
-    page = min(shown.view.page, pages) - 1
+    page = min(shown.view.list_page, pages) - 1
     box = layout.box().column(align=True)
     if len(listed) == 0:
         box.label(text="No junction passes the filters")
@@ -114,7 +123,7 @@ def _list(layout: bpy.types.UILayout, shown: Shown, listed: np.ndarray) -> None:
     row = layout.row(align=True)
     count = label("{some} of {all}", some=len(listed), all=len(shown.table))
     row.label(text=count, translate=False)
-    row.prop(shown.view, "page", text=label("Page of {count}", count=pages), translate=False)
+    row.prop(shown.view, "list_page", text=label("Page of {count}", count=pages), translate=False)
 
 
 def _alternatives(layout: bpy.types.UILayout, shown: Shown, names: dict[int, str]) -> None:

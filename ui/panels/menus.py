@@ -24,6 +24,7 @@ class INVOLUTE_FH_scan(bpy.types.FileHandler):
 
     @classmethod
     def poll_drop(cls, context: bpy.types.Context) -> bool:
+        """Only 3D viewports take pictures."""
         return context.area is not None and context.area.type == "VIEW_3D"
 
 
@@ -70,12 +71,14 @@ _MENUS = (
 
 
 def register() -> None:
+    """Add our entries to the menus of Blender."""
     bpy.utils.register_class(INVOLUTE_FH_scan)
     for name, draw in _MENUS:
         getattr(bpy.types, name).append(draw)
 
 
 def unregister() -> None:
+    """Take them away again."""
     for name, draw in _MENUS:
         getattr(bpy.types, name).remove(draw)
     bpy.utils.unregister_class(INVOLUTE_FH_scan)

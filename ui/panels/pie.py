@@ -12,10 +12,13 @@ from ...operators.junctions.separate import INVOLUTE_OT_separate
 
 
 class INVOLUTE_MT_pie(bpy.types.Menu):
+    """Previous, next, choose, lock, separate, ask again."""
+
     bl_idname = "INVOLUTE_MT_pie"
     bl_label = "Junctions"
 
     def draw(self, context: bpy.types.Context) -> None:
+        """The six slices."""
         pie = self.layout.menu_pie()
         step = INVOLUTE_OT_step_junction.bl_idname
         pie.operator(step, text="Previous", icon="TRIA_LEFT").direction = "PREVIOUS"

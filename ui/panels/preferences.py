@@ -26,6 +26,8 @@ def _color(name: str, description: str, default: colors.Color) -> object:
 
 
 class INVOLUTE_AP_preferences(bpy.types.AddonPreferences):
+    """Preferences > Add-ons > Involute."""
+
     bl_idname = _PACKAGE
 
     defaults: PointerProperty(
@@ -45,6 +47,7 @@ class INVOLUTE_AP_preferences(bpy.types.AddonPreferences):
     )
 
     def draw(self, context: bpy.types.Context) -> None:
+        """Overlay, default settings, keys, networks."""
         layout = self.layout
         layout.use_property_split = True
         layout.use_property_decorate = False
@@ -82,6 +85,7 @@ class INVOLUTE_AP_preferences(bpy.types.AddonPreferences):
 
 
 def preferences_of(context: bpy.types.Context) -> INVOLUTE_AP_preferences:
+    """The preferences of the user."""
     return context.preferences.addons[_PACKAGE].preferences
 
 

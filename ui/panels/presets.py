@@ -21,6 +21,8 @@ class INVOLUTE_OT_add_preset(AddPresetBase, bpy.types.Operator):
 
 
 class INVOLUTE_PT_presets(PresetPanel, bpy.types.Panel):
+    """The popover that lists the presets."""
+
     bl_label = "Trace Presets"
     preset_subdir = INVOLUTE_OT_add_preset.preset_subdir
     preset_operator = "script.execute_preset"
@@ -28,6 +30,7 @@ class INVOLUTE_PT_presets(PresetPanel, bpy.types.Panel):
 
 
 def draw_preset_menu(layout: bpy.types.UILayout) -> None:
+    """The button of the popover, for the header of a panel."""
     INVOLUTE_PT_presets.draw_panel_header(layout)
 
 

@@ -6,7 +6,6 @@ import bpy
 
 from ...engine import InvoluteError
 from ...operators import job as jobs
-from ...operators.junctions.view_state import Shown, shown_in
 from ...operators.language import label
 from ...operators.sequences.playing import plays_frames
 from ...operators.sequences.trace_frames import (
@@ -19,22 +18,27 @@ from ...operators.tracing.settings_layout import draw_settings
 from ...operators.tracing.trace import INVOLUTE_OT_trace, is_image_empty
 from ...operators.tracing.trace_settings import as_values, scene_settings
 from ...operators.tracing.use_defaults import INVOLUTE_OT_use_defaults
+from ...operators.view.view_state import Shown, shown_in
 from .presets import draw_preset_menu
 
 
 class INVOLUTE_PT_trace(bpy.types.Panel):
+    """What to trace and how; progress while a trace runs."""
+
     bl_label = "Trace Drawing"
     bl_space_type = "VIEW_3D"
     bl_region_type = "UI"
     bl_category = "Involute"
 
     def draw_header_preset(self, context: bpy.types.Context) -> None:
+        """Reset and presets."""
         self.layout.operator(
             INVOLUTE_OT_use_defaults.bl_idname, text="", icon="LOOP_BACK", emboss=False
         )
         draw_preset_menu(self.layout)
 
     def draw(self, context: bpy.types.Context) -> None:
+        """Buttons and settings, or the progress."""
         layout = self.layout
         if jobs.current is not None:
             job = jobs.current
@@ -80,6 +84,8 @@ class INVOLUTE_PT_trace(bpy.types.Panel):
 
 
 class INVOLUTE_PT_summary(bpy.types.Panel):
+    """What came out of the trace."""
+
     bl_label = "Result"
     bl_space_type = "VIEW_3D"
     bl_region_type = "UI"
@@ -87,12 +93,14 @@ class INVOLUTE_PT_summary(bpy.types.Panel):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
+        """Is there a traced drawing?"""
         try:
             return shown_in(context) is not None
         except InvoluteError:
             return False
 
     def draw(self, context: bpy.types.Context) -> None:
+        """Counts in two lines."""
         shown: Shown = shown_in(context)
         drawing = shown.trace.drawing
         seconds = sum(drawing.seconds.values())

@@ -29,6 +29,7 @@ class JunctionTable:
 
     @staticmethod
     def of(drawing: Drawing) -> JunctionTable:
+        """The table of a drawing."""
         junctions = drawing.junctions
         return JunctionTable(
             np.array([j.position for j in junctions], np.float32).reshape(-1, 2),

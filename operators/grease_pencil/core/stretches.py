@@ -1,7 +1,8 @@
-"""What stays whole when junctions are rerouted: runs, the pieces of strokes between cuts.
+"""What stays whole when junctions are rerouted: stretches, the pieces of strokes between cuts.
 
 An old stroke is cut where a junction no longer continues it, a new stroke where a junction joins
-what was apart. Both leave the same runs, so every new stroke is a chain of runs of old strokes.
+what was apart. Both leave the same stretches, so every new stroke is a chain of
+stretches of old ones.
 """
 
 from __future__ import annotations
@@ -13,8 +14,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from ...engine import Drawing, Stroke
-    from ...engine.values import PlanarGraph
+    from ....engine import Drawing, Stroke
+    from ....engine.values import PlanarGraph
 
 Array = np.ndarray
 
@@ -22,13 +23,13 @@ _NEAR = 1.5  # px; a stroke that passes this near to a junction may be passing t
 
 
 @dataclass(frozen=True, eq=False)
-class Run:
+class Stretch:
     """Part of a stroke.
 
     stroke: the stroke's place in its drawing.
     halves: its half-branches in walking order.
     start, end: lengths along the stroke in pixels; end > start, beyond the whole length where the
-        run of a closed stroke passes the stroke's first point.
+        stretch of a closed stroke passes the stroke's first point.
     """
 
     stroke: int
@@ -51,8 +52,8 @@ def strokes_through(drawing: Drawing, changed: Array) -> list[int]:
     return np.unique(owner[changed[halves] | changed[halves ^ 1]]).tolist()
 
 
-def runs_of(drawing: Drawing, index: int, changed: Array) -> Iterator[Run]:
-    """The runs of one stroke, in walking order; those of a closed stroke begin at a cut."""
+def stretches_of(drawing: Drawing, index: int, changed: Array) -> Iterator[Stretch]:
+    """The stretches of one stroke, in walking order; those of a closed stroke begin at a cut."""
     stroke = drawing.strokes[index]
     halves = stroke.branches.tolist()
     count = len(halves)
@@ -64,7 +65,7 @@ def runs_of(drawing: Drawing, index: int, changed: Array) -> Iterator[Run]:
     places = _lengths_at(drawing.graph, stroke, cuts)
     for first, last, start, end in zip(cuts, cuts[1:], places, places[1:], strict=False):
         part = (halves + halves)[first:last]
-        yield Run(index, tuple(part), start, end)
+        yield Stretch(index, tuple(part), start, end)
 
 
 def whole_length(stroke: Stroke) -> float:

@@ -16,6 +16,7 @@ class Card(NamedTuple):
     height: float
 
     def holds(self, x: float, y: float) -> bool:
+        """Does this place of the region lie on the card?"""
         return 0 <= x - self.x <= self.width and 0 <= y - self.y <= self.height
 
 

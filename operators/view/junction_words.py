@@ -33,6 +33,7 @@ def angle(drawing: Drawing, half: int) -> float:
 
 
 def arrow(radians: float) -> str:
+    """The arrow that points most nearly in a direction."""
     return _ARROWS[round(radians / (np.pi / 4)) % 8]
 
 

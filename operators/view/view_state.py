@@ -10,8 +10,7 @@ import bpy
 import numpy as np
 from bpy.props import BoolProperty, EnumProperty, FloatVectorProperty, IntProperty
 
-from ..grease_pencil import layers as gp
-from ..grease_pencil import state
+from ..grease_pencil import cels, state
 from .junction_table import JunctionTable, table_of
 
 if TYPE_CHECKING:
@@ -59,7 +58,7 @@ class INVOLUTE_PG_view(bpy.types.PropertyGroup):
             ("5", "5+", "Five or more lines meet"),
         ],
     )
-    page: IntProperty(name="Page", description="Page of the list", default=1, min=1)
+    list_page: IntProperty(name="Page", description="Page of the list", default=1, min=1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,6 +72,7 @@ class Shown:
 
     @cached_property
     def table(self) -> JunctionTable:
+        """All its junctions as arrays."""
         return table_of(self.trace)
 
     @property
@@ -98,19 +98,20 @@ class Shown:
     @property
     def world_positions(self) -> np.ndarray:
         """(J, 3) where the junctions are in the scene."""
-        places = self.trace.placement.to_object(self.table.positions)
+        places = self.trace.pixel_map.to_object(self.table.positions)
         matrix = np.array(self.object.matrix_world)
         return places @ matrix[:3, :3].T + matrix[:3, 3]
 
 
 def view_of(context: bpy.types.Context) -> INVOLUTE_PG_view:
+    """What the user looks at, kept in the window manager."""
     return context.window_manager.involute_view
 
 
 def shown_in(context: bpy.types.Context, obj: bpy.types.Object | None = None) -> Shown | None:
     """What the active object (or another one) shows at the current frame; None = no trace."""
     obj = obj or context.active_object
-    if not gp.is_grease_pencil(obj):
+    if not cels.is_grease_pencil(obj):
         return None
     frame = context.scene.frame_current
     keys = state.keys_at(obj.data, frame)

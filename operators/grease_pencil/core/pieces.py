@@ -16,7 +16,12 @@ from .stroke_arrays import ALONG, BEZIER, FORMATS, Column, Curves, column
 Array = np.ndarray
 
 EPSILON = 0.02  # px; positions in metres and lengths in float32 are this exact
-_TURNS = (-1, 0, 1, 2)  # a run of a closed stroke may begin before and end after its first point
+_TURNS = (
+    -1,
+    0,
+    1,
+    2,
+)  # a stretch of a closed stroke may begin before and end after its first point
 _DEFAULTS = {"opacity": 1.0, "radius": 0.01}
 _OPPOSITE = {
     "handle_left": "handle_right",
@@ -30,13 +35,13 @@ _OPPOSITE = {
 class Piece:
     """A stroke, or a part of one.
 
-    page, index: the Grease Pencil stroke that it comes from.
+    cel, index: the Grease Pencil stroke that it comes from.
     points: attributes of its N points, (N, k) each.
     along: (N,) ascending length along the traced stroke, in pixels.
     cyclic: the last point continues in the first.
     """
 
-    page: int
+    cel: int
     index: int
     points: dict[str, Column]
     along: Array
@@ -52,7 +57,7 @@ class Piece:
         return replace(self, points=points, along=self.along[choice])
 
 
-def piece_of(page: Curves, number: int, index: int, whole: float) -> Piece | None:
+def piece_of(cel: Curves, number: int, index: int, whole: float) -> Piece | None:
     """A stroke in the direction in which it was traced.
 
     Args:
@@ -61,14 +66,14 @@ def piece_of(page: Curves, number: int, index: int, whole: float) -> Piece | Non
     Returns:
         None when the order of its points no longer is that of the traced line.
     """
-    part = slice(page.offsets[index], page.offsets[index + 1])
+    part = slice(cel.offsets[index], cel.offsets[index + 1])
     piece = Piece(
         number,
         index,
-        {name: Column(c.type, c.values[part]) for name, c in page.points.items()},
-        page.point(ALONG)[part].astype(np.float64),
-        bool(page.curve("cyclic")[index]),
-        page.curve("curve_type", 1)[index] == BEZIER,
+        {name: Column(c.type, c.values[part]) for name, c in cel.points.items()},
+        cel.point(ALONG)[part].astype(np.float64),
+        bool(cel.curve("cyclic")[index]),
+        cel.curve("curve_type", 1)[index] == BEZIER,
     )
     if not piece.bezier and "handle_left" in piece.points:  # joined to a Bezier it needs them
         places = piece.points["position"]
@@ -120,7 +125,7 @@ def join(pieces: Sequence[Piece], near: float, closed: bool) -> Piece:
         for name, kind in names.items()
     }
     along = np.concatenate([piece.along for piece in pieces])
-    whole = Piece(longest.page, longest.index, points, along, closed, any(p.bezier for p in pieces))
+    whole = Piece(longest.cel, longest.index, points, along, closed, any(p.bezier for p in pieces))
     ends = np.cumsum([len(piece) for piece in pieces])
     seams = [(int(end) - 1, int(end) % len(along)) for end in (ends if closed else ends[:-1])]
     dropped = []

@@ -9,10 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...engine import InvoluteError
-from . import layers as gp
-from . import state
-from .splice import plan
-from .stroke_arrays import TRACE, column, concatenate
+from . import cels, state
+from .core.splice import plan
+from .core.stroke_arrays import TRACE, column, concatenate
 from .vertex_weights import with_weights
 
 if TYPE_CHECKING:
@@ -21,7 +20,7 @@ if TYPE_CHECKING:
     from ...engine import Drawing
 
 
-def change(
+def change_routing(
     data: bpy.types.ID, frame: int, key: int, how: Callable[[Drawing], Drawing]
 ) -> state.Trace:
     """Apply a change to the drawing that a keyframe shows, and to its strokes.
@@ -39,15 +38,15 @@ def change(
         raise InvoluteError("This drawing is linked from another file; make it local to change it.")
     trace = state.load(data, key)
     new = state.settled(data, key, how(trace.drawing))
-    pages = [drawing for _, drawing in gp.drawings_at(data, frame)]
+    shown = [cel for _, cel in cels.cels_at(data, frame)]
     edits = []
     if (new.routing.partner != trace.drawing.routing.partner).any():
-        there = with_weights(data, frame, [gp.read(page) for page in pages])
-        edits = plan(trace.drawing, new, there, key, trace.placement)
+        there = with_weights(data, frame, [cels.read(cel) for cel in shown])
+        edits = plan(trace.drawing, new, there, key, trace.pixel_map)
     trace = state.separate(data, frame, trace)
-    for page, edit in zip(pages, edits, strict=False):
+    for cel, edit in zip(shown, edits, strict=False):
         if edit.removed or edit.added:
             added = concatenate(edit.added)
             added.curves[TRACE] = column("INT", np.full(len(added), trace.key))
-            gp.replace(page, edit.removed, added, edit.slots)
+            cels.replace(cel, edit.removed, added, edit.slots)
     return state.store(data, replace(trace, drawing=new))

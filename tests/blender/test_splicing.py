@@ -12,13 +12,13 @@ from .example_drawings import cross, grid, ring_and_lines
 from .test_grease_pencil import curves_of, make, with_handles
 
 
-def strokes_in(part, obj, placement, frame=1):
+def strokes_in(part, obj, pixel_map, frame=1):
     """Every stroke of all layers as (points in pixels, closed), in any order and direction."""
-    gp = part("operators.grease_pencil.layers")
+    gp = part("operators.grease_pencil.cels")
     found = []
-    for _, page in gp.drawings_at(obj.data, frame):
-        curves = gp.read(page)
-        points = placement.to_pixels(curves.point("position"))
+    for _, cel in gp.cels_at(obj.data, frame):
+        curves = gp.read(cel)
+        points = pixel_map.to_pixels(curves.point("position"))
         for k in range(len(curves)):
             found.append(
                 (points[curves.offsets[k] : curves.offsets[k + 1]], bool(curves.curve("cyclic")[k]))
@@ -42,12 +42,12 @@ def assert_same(found, strokes):
 
 def change(part, obj, how, frame=1):
     state = part("operators.grease_pencil.state")
-    rerouting = part("operators.grease_pencil.rerouting")
+    changing = part("operators.grease_pencil.routing_change")
     key = state.keys_at(obj.data, frame)[0]
-    return rerouting.change(obj.data, frame, key, how)
+    return changing.change_routing(obj.data, frame, key, how)
 
 
-def check_rerouted(part, obj, placement, wanted):
+def check_rerouted(part, obj, pixel_map, wanted):
     """Reroute junctions {index: pairs}; the strokes must be the engine's. Returns them."""
 
     def reroute(d):
@@ -56,7 +56,7 @@ def check_rerouted(part, obj, placement, wanted):
         return d
 
     change(part, obj, reroute)
-    found, strokes = strokes_in(part, obj, placement), drawing_of(part, obj).strokes
+    found, strokes = strokes_in(part, obj, pixel_map), drawing_of(part, obj).strokes
     assert len(found) == len(strokes)
     for stroke in strokes:
         assert min(apart(points, stroke, closed) for points, closed in found) < 1.5
@@ -68,17 +68,17 @@ def drawing_of(part, obj, frame=1):
     return state.load(obj.data, state.keys_at(obj.data, frame)[0]).drawing
 
 
-def page_of(obj, layer="Black", frame=1):
+def cel_of(obj, layer="Black", frame=1):
     return obj.data.layers[layer].get_frame_at(frame).drawing
 
 
-def move(page, which, shift):
-    """Move some points of a page, as an artist would."""
-    places = np.zeros(3 * len(page.attributes["position"].data), np.float32)
-    page.attributes["position"].data.foreach_get("vector", places)
+def move(cel, which, shift):
+    """Move some points of a cel, as an artist would."""
+    places = np.zeros(3 * len(cel.attributes["position"].data), np.float32)
+    cel.attributes["position"].data.foreach_get("vector", places)
     places = places.reshape(-1, 3)
     places[which] += shift
-    page.attributes["position"].data.foreach_set("vector", places.ravel())
+    cel.attributes["position"].data.foreach_set("vector", places.ravel())
 
 
 def test_state_travels_with_the_data(bpy, part):
@@ -96,31 +96,31 @@ def test_state_travels_with_the_data(bpy, part):
 def test_untouched_strokes_always_equal_the_engines(bpy, part, seed):
     """Any sequence of reroutes, then their inverses."""
     drawing = grid(part, 4)
-    obj, placement = make(bpy, part, drawing)
+    obj, pixel_map = make(bpy, part, drawing)
     random = np.random.default_rng(seed)
     first = {j.index: j.pairs for j in drawing.junctions}
     for _ in range(8):
         junction = drawing.junctions[random.integers(len(drawing.junctions))]
         pairs = junction.alternatives[random.integers(len(junction.alternatives))].pairs
         change(part, obj, lambda d, j=junction.index, p=pairs: d.reroute(j, p))
-        assert_same(strokes_in(part, obj, placement), drawing_of(part, obj).strokes)
+        assert_same(strokes_in(part, obj, pixel_map), drawing_of(part, obj).strokes)
     for index, pairs in first.items():
         change(part, obj, lambda d, j=index, p=pairs: d.reroute(j, p))
-    assert_same(strokes_in(part, obj, placement), drawing.strokes)
+    assert_same(strokes_in(part, obj, pixel_map), drawing.strokes)
 
 
 @pytest.mark.parametrize("seed", range(4))
 def test_touched_strokes_follow_the_engines(bpy, part, seed):
     """Spliced piece by piece, strokes take the same ways as those that the engine walks anew."""
     drawing = ring_and_lines(part)
-    obj, placement = make(bpy, part, drawing)
-    move(page_of(obj), slice(None), (1e-3, 0, 0))  # 0.15 px: all have been touched
+    obj, pixel_map = make(bpy, part, drawing)
+    move(cel_of(obj), slice(None), (1e-3, 0, 0))  # 0.15 px: all have been touched
     random = np.random.default_rng(seed)
     for _ in range(10):
         junction = drawing.junctions[random.integers(len(drawing.junctions))]
         pairs = junction.alternatives[random.integers(len(junction.alternatives))].pairs
         change(part, obj, lambda d, j=junction.index, p=pairs: d.reroute(j, p))
-        found, strokes = strokes_in(part, obj, placement), drawing_of(part, obj).strokes
+        found, strokes = strokes_in(part, obj, pixel_map), drawing_of(part, obj).strokes
         assert len(found) == len(strokes)
         assert sorted(closed for _, closed in found) == sorted(s.closed for s in strokes)
         for stroke in strokes:
@@ -131,13 +131,13 @@ def test_touched_strokes_follow_the_engines(bpy, part, seed):
 def test_strokes_that_run_the_other_way_are_found_again(bpy, part, touched):
     """As in a sequence, where strokes take the direction that they had on the frame before."""
     drawing = ring_and_lines(part)
-    obj, placement = make(bpy, part, replace(drawing, strokes=tuple(map(turned, drawing.strokes))))
+    obj, pixel_map = make(bpy, part, replace(drawing, strokes=tuple(map(turned, drawing.strokes))))
     if touched:
-        move(page_of(obj), slice(None), (1e-3, 0, 0))
+        move(cel_of(obj), slice(None), (1e-3, 0, 0))
     whole = {j.index: j.pairs for j in drawing.junctions}
     for pairs in ({0: (), 2: ()}, whole, {1: (), 4: ()}, whole, {3: (), 0: ()}):
         part("operators.grease_pencil.state")._decoded.clear()
-        check_rerouted(part, obj, placement, pairs)
+        check_rerouted(part, obj, pixel_map, pairs)
 
 
 @pytest.mark.parametrize("forget", [False, True])
@@ -149,10 +149,10 @@ def test_closed_strokes_that_start_elsewhere_are_found_again(bpy, part, seed, to
     drawing = ring_and_lines(part)
     strokes = [rolled(s, random.integers(len(s.points))) for s in drawing.strokes]
     strokes = [turned(s) if random.random() < 0.5 else s for s in strokes]
-    obj, placement = make(bpy, part, replace(drawing, strokes=tuple(strokes)))
+    obj, pixel_map = make(bpy, part, replace(drawing, strokes=tuple(strokes)))
     if touched:
-        move(page_of(obj), slice(None), (1e-3, 0, 0))
-    before = [(points.copy(), closed) for points, closed in strokes_in(part, obj, placement)]
+        move(cel_of(obj), slice(None), (1e-3, 0, 0))
+    before = [(points.copy(), closed) for points, closed in strokes_in(part, obj, pixel_map)]
     whole = {j.index: j.pairs for j in drawing.junctions}
     for number in range(10):
         if forget:  # as after saving and opening again
@@ -160,7 +160,7 @@ def test_closed_strokes_that_start_elsewhere_are_found_again(bpy, part, seed, to
         junction = drawing.junctions[random.integers(len(drawing.junctions))]
         pairs = junction.alternatives[random.integers(len(junction.alternatives))].pairs
         wanted = whole if number % 3 == 2 else {junction.index: pairs}
-        found = check_rerouted(part, obj, placement, wanted)
+        found = check_rerouted(part, obj, pixel_map, wanted)
         if wanted is whole and not touched:  # even the starting points are the old ones
             for points, closed in before:
                 assert any(c == closed and same_points(p, points) for p, c in found)
@@ -211,7 +211,7 @@ def apart(points, stroke, closed):
 
 def test_many_junctions_change_at_once(bpy, part):
     drawing = grid(part, 4)
-    obj, placement = make(bpy, part, drawing)
+    obj, pixel_map = make(bpy, part, drawing)
 
     def shuffle(d):
         random = np.random.default_rng(4)
@@ -220,16 +220,16 @@ def test_many_junctions_change_at_once(bpy, part):
         return d
 
     change(part, obj, shuffle)
-    assert_same(strokes_in(part, obj, placement), drawing_of(part, obj).strokes)
+    assert_same(strokes_in(part, obj, pixel_map), drawing_of(part, obj).strokes)
     change(part, obj, lambda d: d.reroute(0, ()).ask_again())
-    assert_same(strokes_in(part, obj, placement), drawing_of(part, obj).strokes)
+    assert_same(strokes_in(part, obj, pixel_map), drawing_of(part, obj).strokes)
 
 
 def test_strokes_elsewhere_are_left_alone(bpy, part):
     obj, _ = make(bpy, part, cross(part))
-    page = page_of(obj)
-    page.add_strokes([4])  # drawn by hand
-    curves = part("operators.grease_pencil.stroke_arrays")
+    cel = cel_of(obj)
+    cel.add_strokes([4])  # drawn by hand
+    curves = part("operators.grease_pencil.core.stroke_arrays")
     change(part, obj, lambda d: d.reroute(0, ()))
     after = curves_of(part, obj)
     assert len(after) == 6  # two lines became four; circle and hand-drawn stroke
@@ -239,15 +239,15 @@ def test_strokes_elsewhere_are_left_alone(bpy, part):
 
 def test_moved_points_and_looks_survive_split_and_join(bpy, part):
     drawing = cross(part)
-    obj, placement = make(bpy, part, drawing)
-    page = page_of(obj)
+    obj, pixel_map = make(bpy, part, drawing)
+    cel = cel_of(obj)
     curves = curves_of(part, obj)
-    part("operators.grease_pencil.layers").set_column(page, "material_index", np.array([0, 3, 0]))
+    part("operators.grease_pencil.cels").set_column(cel, "material_index", np.array([0, 3, 0]))
     shifted = curves.offsets[1] + 2
-    move(page, shifted, (0.0, 0.25, 0.1))
+    move(cel, shifted, (0.0, 0.25, 0.1))
     radius = curves.point("radius").astype(np.float32)
     radius[shifted] = 0.5
-    page.attributes["radius"].data.foreach_set("value", radius)
+    cel.attributes["radius"].data.foreach_set("value", radius)
     kept = curves_of(part, obj).point("position")[shifted]
 
     def has_the_point():
@@ -265,7 +265,7 @@ def test_moved_points_and_looks_survive_split_and_join(bpy, part):
     change(part, obj, lambda d: d.reroute(0, pairs))
     assert len(curves_of(part, obj)) == 3
     has_the_point()
-    for points, closed in strokes_in(part, obj, placement):
+    for points, closed in strokes_in(part, obj, pixel_map):
         if not closed:  # whole lines again: nothing doubled, nothing lost
             assert np.linalg.norm(points[0] - points[-1]) > 250
             assert (np.linalg.norm(np.diff(points, axis=0), axis=1) > 0).all()
@@ -275,12 +275,12 @@ def test_vertex_weights_survive_split_and_join(bpy, part):
     """Painted weights follow their points, also on a hidden layer and beside a second group."""
     drawing = cross(part)
     obj, _ = make(bpy, part, drawing)
-    page, curves = page_of(obj), curves_of(part, obj)
+    cel, curves = cel_of(obj), curves_of(part, obj)
     shade = (curves.point("position")[:, 0] / 3 + 0.4).astype(np.float32)  # 0.0 .. 0.9
     for name, weights in (("Arm", shade), ("Tip", np.where(shade > 0.6, 0.5, 0.0))):
         obj.vertex_groups.new(name=name)
         inside = np.flatnonzero(weights > 0)
-        page.set_vertex_weights(
+        cel.set_vertex_weights(
             vertex_group_name=name,
             indices=inside.tolist(),
             weights=weights[inside].tolist(),
@@ -290,9 +290,9 @@ def test_vertex_weights_survive_split_and_join(bpy, part):
     before = [len(kind) for kind in (bpy.data.scenes, bpy.data.objects, bpy.data.node_groups)]
 
     def check(count):
-        gp = part("operators.grease_pencil.layers")
-        pages = [gp.read(page) for _, page in gp.drawings_at(obj.data, 1)]
-        (now,) = part("operators.grease_pencil.vertex_weights").with_weights(obj.data, 1, pages)
+        gp = part("operators.grease_pencil.cels")
+        cels = [gp.read(cel) for _, cel in gp.cels_at(obj.data, 1)]
+        (now,) = part("operators.grease_pencil.vertex_weights").with_weights(obj.data, 1, cels)
         assert len(now) == count
         places = now.point("position")[:, 0] / 3 + 0.4
         np.testing.assert_allclose(now.point("vertex group Arm"), places, atol=2e-3)
@@ -311,7 +311,7 @@ def test_vertex_weights_survive_split_and_join(bpy, part):
 
 def test_subdivided_strokes_split_where_the_junction_was(bpy, part):
     drawing = cross(part)
-    obj, placement = make(bpy, part, drawing)
+    obj, pixel_map = make(bpy, part, drawing)
     bpy.context.view_layer.objects.active = obj
     obj.select_set(True)
     bpy.ops.object.mode_set(mode="EDIT")
@@ -321,7 +321,7 @@ def test_subdivided_strokes_split_where_the_junction_was(bpy, part):
     before = len(curves_of(part, obj).point("radius"))
     change(part, obj, lambda d: d.reroute(0, ()))
     junction = np.array(drawing.junctions[0].position)
-    ends = [p[[0, -1]] for p, closed in strokes_in(part, obj, placement) if not closed]
+    ends = [p[[0, -1]] for p, closed in strokes_in(part, obj, pixel_map) if not closed]
     assert len(ends) == 4
     assert all(np.linalg.norm(e - junction, axis=1).min() < 0.5 for e in ends)
     assert abs(len(curves_of(part, obj).point("radius")) - before) <= 4
@@ -329,16 +329,16 @@ def test_subdivided_strokes_split_where_the_junction_was(bpy, part):
 
 def test_deleted_points_stay_deleted(bpy, part):
     drawing = cross(part)
-    obj, placement = make(bpy, part, drawing)
-    page, curves = page_of(obj), curves_of(part, obj)
+    obj, pixel_map = make(bpy, part, drawing)
+    cel, curves = cel_of(obj), curves_of(part, obj)
     # The first line loses its last third.
     keep = [int(curves.sizes[0] * 2 / 3), *curves.sizes[1:].tolist()]
-    page.resize_strokes(sizes=keep)
-    length = np.linalg.norm(np.diff(strokes_in(part, obj, placement)[0][0][[0, -1]], axis=0))
+    cel.resize_strokes(sizes=keep)
+    length = np.linalg.norm(np.diff(strokes_in(part, obj, pixel_map)[0][0][[0, -1]], axis=0))
     change(part, obj, lambda d: d.reroute(0, ()))
     pairs = drawing.junctions[0].pairs
     change(part, obj, lambda d: d.reroute(0, pairs))
-    found = strokes_in(part, obj, placement)
+    found = strokes_in(part, obj, pixel_map)
     assert len(found) == 3
     lengths = [np.linalg.norm(p[0] - p[-1]) for p, closed in found if not closed]
     assert min(abs(v - length) for v in lengths) < 1.0
@@ -347,7 +347,7 @@ def test_deleted_points_stay_deleted(bpy, part):
 def test_deleted_stroke_leaves_the_others(bpy, part):
     drawing = cross(part)
     obj, _ = make(bpy, part, drawing)
-    page_of(obj).remove_strokes(indices=[0])
+    cel_of(obj).remove_strokes(indices=[0])
     change(part, obj, lambda d: d.reroute(0, ()))
     assert len(curves_of(part, obj)) == 3
     change(part, obj, lambda d: d.reroute(0, drawing.junctions[0].pairs))
@@ -357,8 +357,8 @@ def test_deleted_stroke_leaves_the_others(bpy, part):
 def test_scrambled_stroke_is_refused_and_nothing_changes(bpy, part):
     drawing = cross(part)
     obj, _ = make(bpy, part, drawing)
-    page, curves = page_of(obj), part("operators.grease_pencil.stroke_arrays")
-    attribute = page.attributes[curves.ALONG]
+    cel, curves = cel_of(obj), part("operators.grease_pencil.core.stroke_arrays")
+    attribute = cel.attributes[curves.ALONG]
     along = np.zeros(len(attribute.data), np.float32)
     attribute.data.foreach_get("value", along)
     along[1:6] = along[[4, 1, 5, 2, 3]]
@@ -381,7 +381,7 @@ def test_bezier_strokes_split_on_the_curve(bpy, part):
     drawing = cross(part)
     drawing = replace(drawing, strokes=tuple(map(with_handles, drawing.strokes)))
     obj, _ = make(bpy, part, drawing)
-    move(page_of(obj), [1], (0, 0.1, 0))
+    move(cel_of(obj), [1], (0, 0.1, 0))
     change(part, obj, lambda d: d.reroute(0, ()))
     curves = curves_of(part, obj)
     assert len(curves) == 5
@@ -390,19 +390,19 @@ def test_bezier_strokes_split_on_the_curve(bpy, part):
 
 def test_copied_keyframes_go_their_own_ways(bpy, part):
     drawing = cross(part)
-    obj, placement = make(bpy, part, drawing)
+    obj, pixel_map = make(bpy, part, drawing)
     layer = obj.data.layers["Black"]
     layer.frames.copy(1, 9)
     change(part, obj, lambda d: d.reroute(0, ()), frame=9)
     assert len(drawing_of(part, obj, 9).strokes) == 5
-    assert_same(strokes_in(part, obj, placement, 9), drawing_of(part, obj, 9).strokes)
-    assert_same(strokes_in(part, obj, placement, 1), drawing_of(part, obj, 1).strokes)
-    assert_same(strokes_in(part, obj, placement, 1), drawing.strokes)
+    assert_same(strokes_in(part, obj, pixel_map, 9), drawing_of(part, obj, 9).strokes)
+    assert_same(strokes_in(part, obj, pixel_map, 1), drawing_of(part, obj, 1).strokes)
+    assert_same(strokes_in(part, obj, pixel_map, 1), drawing.strokes)
 
 
 def test_undo_and_redo_ten_steps(bpy, part):
     drawing = grid(part, 3)
-    obj, placement = make(bpy, part, drawing)
+    obj, pixel_map = make(bpy, part, drawing)
     name = obj.name
     bpy.ops.ed.undo_push(message="start")
     counts = [len(drawing.strokes)]
@@ -416,7 +416,7 @@ def test_undo_and_redo_ten_steps(bpy, part):
     def check(count):
         obj = bpy.data.objects[name]
         assert len(drawing_of(part, obj).strokes) == count
-        assert_same(strokes_in(part, obj, placement), drawing_of(part, obj).strokes)
+        assert_same(strokes_in(part, obj, pixel_map), drawing_of(part, obj).strokes)
 
     for count in counts[-2::-1]:
         bpy.ops.ed.undo()
@@ -428,7 +428,7 @@ def test_undo_and_redo_ten_steps(bpy, part):
 
 def test_save_reopen_append_duplicate(bpy, part, tmp_path):
     drawing = grid(part, 3)
-    obj, placement = make(bpy, part, drawing)
+    obj, pixel_map = make(bpy, part, drawing)
     change(part, obj, lambda d: d.reroute(0, ()))
     copy = obj.copy()
     copy.data = obj.data.copy()
@@ -444,7 +444,7 @@ def test_save_reopen_append_duplicate(bpy, part, tmp_path):
             found = bpy.data.objects[name]
             part("operators.grease_pencil.state")._decoded.clear()
             change(part, found, lambda d: d.reroute(4, ()))
-            assert_same(strokes_in(part, found, placement), drawing_of(part, found).strokes)
+            assert_same(strokes_in(part, found, pixel_map), drawing_of(part, found).strokes)
 
     bpy.ops.wm.open_mainfile(filepath=path)
     check()

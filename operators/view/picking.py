@@ -1,10 +1,17 @@
-"""What lies under the mouse: plain NumPy in screen space, so it needs neither GPU nor window."""
+"""Projecting and picking: plain NumPy in screen space, so it needs neither GPU nor window."""
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
+if TYPE_CHECKING:
+    from ...engine import Drawing
+
 Array = np.ndarray
+
+REACH = 60.0  # px of the drawing; how far a half-branch counts as belonging to its junction
 
 
 def project(points: Array, matrix: Array, width: float, height: float) -> Array:
@@ -60,3 +67,13 @@ def nearest_pair(
         if a != b and vertex[a] == vertex[b]
     ]
     return min(meeting)[1:] if meeting else None
+
+
+def near_part(drawing: Drawing, half: int, reach: float = REACH, share: float = 0.5) -> np.ndarray:
+    """(N, 2) px: a half-branch from its junction outward, no farther than a share of the branch."""
+    points = drawing.graph.half_branch(half).astype(np.float64)
+    lengths = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
+    end = min(reach, share * lengths[-1])
+    inside = lengths < end
+    last = [np.interp(end, lengths, points[:, k]) for k in (0, 1)]
+    return np.concatenate([points[inside], [last]])

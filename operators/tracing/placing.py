@@ -9,7 +9,7 @@ from bpy.props import EnumProperty, FloatProperty
 from mathutils import Matrix
 
 from ...engine import InvoluteError
-from ..grease_pencil.placement import Placement, front_view
+from ..grease_pencil.core.pixel_map import PixelMap, front_view
 
 if TYPE_CHECKING:
     import bpy
@@ -47,9 +47,9 @@ def placing_values(source: PlacingSettings) -> dict[str, Any]:
     return {name: getattr(source, name) for name in PlacingSettings.__annotations__}
 
 
-def stand(
+def place_drawing(
     context: bpy.types.Context, size: tuple[int, int], place: str, pixels_per_metre: float
-) -> tuple[Placement, Matrix]:
+) -> tuple[PixelMap, Matrix]:
     """Where the pixels lie in a new object, and where the object stands.
 
     Raises:

@@ -12,16 +12,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...engine import InvoluteError
+from ....engine import InvoluteError
 from .pieces import EPSILON, Piece, cut, join, piece_of, reversed_piece
-from .placement import Placement
-from .runs import Run, changed_halves, runs_of, strokes_through, whole_length
+from .pixel_map import PixelMap
+from .stretches import Stretch, changed_halves, stretches_of, strokes_through, whole_length
 from .stroke_arrays import ALONG, BEZIER, HALF, POLY, TRACE, Column, Curves, column, stroke_curves
 
 if TYPE_CHECKING:
-    from ...engine import Drawing, Stroke
+    from ....engine import Drawing, Stroke
 
-_LOST = 0.5  # of a run; an end with more missing than that is not the end it was
+_LOST = 0.5  # of a stretch; an end with more missing than that is not the end it was
 _TOGETHER = 3.0  # px; ends that are this near become one point
 _UNTELLABLE = (
     "A stroke at this junction was changed so much that its ends can't be told; "
@@ -29,12 +29,12 @@ _UNTELLABLE = (
 )
 _OWN = ("cyclic", "curve_type", TRACE, HALF)  # attributes of strokes that are set here
 
-Source = tuple[Run, bool]  # a run of an old stroke, and whether it is walked backward
+Source = tuple[Stretch, bool]  # a stretch of an old stroke, and whether it is walked backward
 
 
 @dataclass(frozen=True, eq=False)
 class Edit:
-    """What changes in one Grease Pencil drawing: see `grease_pencil.replace`."""
+    """What changes in one Grease Pencil drawing: see `cels.replace`."""
 
     removed: list[int] = field(default_factory=list)
     added: list[Curves] = field(default_factory=list)
@@ -42,55 +42,56 @@ class Edit:
 
 
 def plan(
-    old: Drawing, new: Drawing, pages: Sequence[Curves], key: int, placement: Placement
+    old: Drawing, new: Drawing, cels: Sequence[Curves], key: int, pixel_map: PixelMap
 ) -> list[Edit]:
     """How to turn the strokes of one routing into those of another.
 
     Args:
         old, new: the same graph in two routings.
-        pages: what the layers show; strokes of the trace may be on any of them.
+        cels: what the layers show; strokes of the trace may be on any of them.
         key: of the trace.
 
     Returns:
-        One edit per page.
+        One edit per cel.
 
     Raises:
         InvoluteError: the ends of a stroke that has to be joined or split can't be told.
     """
-    return _Splicer(old, new, pages, key, placement).edits()
+    return _Splicer(old, new, cels, key, pixel_map).edits()
 
 
 class _Splicer:
     def __init__(
-        self, old: Drawing, new: Drawing, pages: Sequence[Curves], key: int, placement: Placement
+        self, old: Drawing, new: Drawing, cels: Sequence[Curves], key: int, pixel_map: PixelMap
     ) -> None:
-        self.old, self.new, self.pages = old, new, pages
-        self.key, self.placement = key, placement
+        self.old, self.new, self.cels = old, new, cels
+        self.key, self.pixel_map = key, pixel_map
         self.changed = changed_halves(old, new)
         affected = strokes_through(old, self.changed)
         self.pieces = self._find(affected)
         self.untouched = {index for index in affected if self._is_untouched(index)}
-        # Every run by the half-branch that it begins with, walked either way.
-        self.runs: dict[int, Source] = {}
+        # Every stretch by the half-branch that it begins with, walked either way.
+        self.stretches: dict[int, Source] = {}
         for index in affected:
-            for run in runs_of(old, index, self.changed):
-                self.runs[run.halves[-1] ^ 1] = (run, True)
-                self.runs[run.halves[0]] = (run, False)
+            for stretch in stretches_of(old, index, self.changed):
+                self.stretches[stretch.halves[-1] ^ 1] = (stretch, True)
+                self.stretches[stretch.halves[0]] = (stretch, False)
 
     def edits(self) -> list[Edit]:
-        edits = [Edit() for _ in self.pages]
+        """Remove what the changed strokes have become; put the new strokes in their places."""
+        edits = [Edit() for _ in self.cels]
         for pieces in self.pieces.values():
             for piece in pieces:
-                edits[piece.page].removed.append(piece.index)
+                edits[piece.cel].removed.append(piece.index)
         for index in strokes_through(self.new, self.changed):
             stroke = self.new.strokes[index]
-            parts = list(runs_of(self.new, index, self.changed))
-            sources = [self.runs.get(part.halves[0]) for part in parts]
+            parts = list(stretches_of(self.new, index, self.changed))
+            sources = [self.stretches.get(part.halves[0]) for part in parts]
             origins = {source[0].stroke for source in sources if source}
             if origins and origins <= self.untouched:
                 pieces = [piece for origin in origins for piece in self.pieces[origin]]
                 main = max(pieces, key=len)
-                self._add(edits, main, stroke_curves([stroke], self.placement, self.key, 0))
+                self._add(edits, main, stroke_curves([stroke], self.pixel_map, self.key, 0))
                 continue
             for piece in self._spliced(stroke, parts, sources):
                 self._add(edits, piece, self._as_curves(piece, int(stroke.branches[0])))
@@ -102,13 +103,13 @@ class _Splicer:
         """The Grease Pencil strokes that each traced stroke has become, in order along it."""
         owner = {int(h) >> 1: i for i in affected for h in self.old.strokes[i].branches}
         found: dict[int, list[Piece]] = {index: [] for index in affected}
-        for number, page in enumerate(self.pages):
-            halves = page.curve(HALF).astype(np.int64) - 1
-            mine = (page.curve(TRACE) == self.key) & np.isin(halves >> 1, list(owner))
+        for number, cel in enumerate(self.cels):
+            halves = cel.curve(HALF).astype(np.int64) - 1
+            mine = (cel.curve(TRACE) == self.key) & np.isin(halves >> 1, list(owner))
             for curve in np.flatnonzero(mine).tolist():
                 index = owner[int(halves[curve]) >> 1]
                 stroke = self.old.strokes[index]
-                piece = piece_of(page, number, curve, whole_length(stroke))
+                piece = piece_of(cel, number, curve, whole_length(stroke))
                 if piece is None:
                     raise InvoluteError(_UNTELLABLE)
                 # A copy that the artist made lies over the original: it is nobody's piece.
@@ -124,33 +125,33 @@ class _Splicer:
         piece = pieces[0]
         if piece.cyclic != stroke.closed or piece.bezier != (stroke.handles is not None):
             return False
-        traced = stroke_curves([stroke], self.placement, self.key, 0).points
+        traced = stroke_curves([stroke], self.pixel_map, self.key, 0).points
         for name, col in piece.points.items():
             if name in traced:
                 is_place = traced[name].type == "FLOAT_VECTOR"
-                near = EPSILON * self.placement.unit if is_place else 1e-3 * traced[name].values
+                near = EPSILON * self.pixel_map.unit if is_place else 1e-3 * traced[name].values
                 if name != ALONG and (np.abs(col.values - traced[name].values) > near).any():
                     return False
             elif col.values.any() and not name.startswith((".", "handle_")):
                 return False  # such as a colour painted on
         return True
 
-    def _cut(self, run: Run) -> list[Piece]:
-        """What is there of a run, in the direction of its old stroke."""
-        stroke = self.old.strokes[run.stroke]
+    def _cut(self, stretch: Stretch) -> list[Piece]:
+        """What is there of a stretch, in the direction of its old stroke."""
+        stroke = self.old.strokes[stretch.stroke]
         whole = whole_length(stroke) if stroke.closed else None
         turns = [0.0] if whole is None else [0.0, whole, -whole, 2 * whole]
         cuts = []
-        for piece in self.pieces[run.stroke]:
+        for piece in self.pieces[stretch.stroke]:
             for turn in turns[:1] if piece.cyclic else turns:
                 shifted = replace(piece, along=piece.along + turn)
-                cuts.append(cut(shifted, run.start, run.end, whole))
+                cuts.append(cut(shifted, stretch.start, stretch.end, whole))
         return sorted((c for c in cuts if c is not None), key=lambda c: c.along[0])
 
     # --- what is to be there ---
 
     def _spliced(
-        self, stroke: Stroke, parts: Sequence[Run], sources: Sequence[Source | None]
+        self, stroke: Stroke, parts: Sequence[Stretch], sources: Sequence[Source | None]
     ) -> list[Piece]:
         """A new stroke from pieces of old ones, joined wherever nothing is missing."""
         chains: list[list[Piece]] = []
@@ -162,8 +163,8 @@ class _Splicer:
             if is_there:
                 before = number > 0 or stroke.closed
                 after = number < len(parts) - 1 or stroke.closed
-                run, backward = source
-                _check_ends(pieces, run, *((after, before) if backward else (before, after)))
+                stretch, backward = source
+                _check_ends(pieces, stretch, *((after, before) if backward else (before, after)))
                 pieces = _moved(pieces, source, part)
                 if joins:
                     chains[-1].append(pieces.pop(0))
@@ -174,7 +175,7 @@ class _Splicer:
         if closed and len(chains) > 1:
             chains[0] = chains.pop() + chains[0]
             closed = False
-        near = _TOGETHER * self.placement.unit
+        near = _TOGETHER * self.pixel_map.unit
         made = [join(chain, near, closed) for chain in chains]
         if stroke.closed:
             whole = whole_length(stroke)
@@ -195,10 +196,10 @@ class _Splicer:
         """Put a stroke in the place of `main`, with the attributes of that stroke."""
         taken_over = {
             name: Column(c.type, c.values[main.index : main.index + 1])
-            for name, c in self.pages[main.page].curves.items()
+            for name, c in self.cels[main.cel].curves.items()
             if name not in _OWN
         }
-        edit = edits[main.page]
+        edit = edits[main.cel]
         edit.added.append(replace(curves, curves=curves.curves | taken_over))
         edit.slots.append(main.index)
 
@@ -207,22 +208,22 @@ def _overlap(a: Piece, b: Piece) -> bool:
     return a.along[0] < b.along[-1] - EPSILON and b.along[0] < a.along[-1] - EPSILON
 
 
-def _check_ends(pieces: Sequence[Piece], run: Run, at_start: bool, at_end: bool) -> None:
-    """Where a run is to be joined, its end must still be there."""
-    lost = _LOST * (run.end - run.start)
-    if (at_start and pieces[0].along[0] - run.start > lost) or (
-        at_end and run.end - pieces[-1].along[-1] > lost
+def _check_ends(pieces: Sequence[Piece], stretch: Stretch, at_start: bool, at_end: bool) -> None:
+    """Where a stretch is to be joined, its end must still be there."""
+    lost = _LOST * (stretch.end - stretch.start)
+    if (at_start and pieces[0].along[0] - stretch.start > lost) or (
+        at_end and stretch.end - pieces[-1].along[-1] > lost
     ):
         raise InvoluteError(_UNTELLABLE)
 
 
-def _moved(pieces: Sequence[Piece], source: Source, part: Run) -> list[Piece]:
-    """The pieces of a run as parts of a new stroke: its direction, its lengths."""
-    run, backward = source
-    scale = (part.end - part.start) / max(run.end - run.start, 1e-9)
+def _moved(pieces: Sequence[Piece], source: Source, part: Stretch) -> list[Piece]:
+    """The pieces of a stretch as parts of a new stroke: its direction, its lengths."""
+    stretch, backward = source
+    scale = (part.end - part.start) / max(stretch.end - stretch.start, 1e-9)
     if not backward:
-        return [replace(p, along=part.start + (p.along - run.start) * scale) for p in pieces]
+        return [replace(p, along=part.start + (p.along - stretch.start) * scale) for p in pieces]
     return [
-        reversed_piece(p, (part.end - (p.along - run.start) * scale)[::-1])
+        reversed_piece(p, (part.end - (p.along - stretch.start) * scale)[::-1])
         for p in reversed(pieces)
     ]

@@ -1,4 +1,4 @@
-"""Which junction or line of which traced drawing lies under the mouse."""
+"""Where drawings, junctions, lines and cards lie in a region; what the mouse points at."""
 
 from __future__ import annotations
 
@@ -7,17 +7,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .picking import distance_to_line, nearest, project
+from .card_layout import Card, layout
+from .picking import distance_to_line, near_part, nearest, project
 from .view_state import Shown, shown_in
 
 if TYPE_CHECKING:
     import bpy
 
-    from ...engine import Drawing
-
 Mouse = tuple[float, float]
 
-REACH = 60.0  # px of the drawing; how far a half-branch counts as belonging to its junction
 _JUNCTION_RADIUS, _LINE_RADIUS = 22.0, 16.0  # px of the screen, times the interface's scale
 _NEIGHBORS = 6  # junctions whose lines are looked at
 
@@ -26,7 +24,7 @@ def places_on_screen(context: bpy.types.Context, shown: Shown, points: np.ndarra
     """Pixels of a drawing -> pixels of the region; NaN behind the eye."""
     region = context.region
     matrix = np.array(context.region_data.perspective_matrix) @ np.array(shown.object.matrix_world)
-    places = shown.trace.placement.to_object(points)
+    places = shown.trace.pixel_map.to_object(points)
     return project(places, matrix, region.width, region.height)
 
 
@@ -58,14 +56,16 @@ def halves_under(context: bpy.types.Context, mouse: Mouse) -> tuple[Shown, dict[
     return None
 
 
-def near_part(drawing: Drawing, half: int, reach: float = REACH, share: float = 0.5) -> np.ndarray:
-    """(N, 2) px: a half-branch from its junction outward, no farther than a share of the branch."""
-    points = drawing.graph.half_branch(half).astype(np.float64)
-    lengths = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
-    end = min(reach, share * lengths[-1])
-    inside = lengths < end
-    last = [np.interp(end, lengths, points[:, k]) for k in (0, 1)]
-    return np.concatenate([points[inside], [last]])
+def cards_of(context: bpy.types.Context, shown: Shown) -> list[Card]:
+    """The cards of the current junction's alternatives in the region of the context."""
+    junction = shown.junction
+    (anchor,) = places_on_screen(context, shown, np.array([junction.position]))
+    region = context.region
+    if not np.isfinite(anchor).all():
+        anchor = (region.width / 2, region.height / 2)
+    scale = context.preferences.system.ui_scale
+    size = region.width, region.height
+    return layout(len(junction.alternatives), tuple(anchor), size, scale)
 
 
 def _drawings(context: bpy.types.Context) -> Iterator[Shown]:

@@ -14,7 +14,7 @@ Array = np.ndarray
 
 
 @dataclass(frozen=True, eq=False)
-class Placement:
+class PixelMap:
     """An affine map from pixels (x right, y down) to object space (metres).
 
     origin: (3,) where the image's top left corner lies.
@@ -46,22 +46,23 @@ class Placement:
         return [float(v) for v in (*self.origin, *self.right, *self.down)]
 
     @staticmethod
-    def from_list(values: list[float]) -> Placement:
-        return Placement(*np.array(list(values), np.float64).reshape(3, 3))
+    def from_list(values: list[float]) -> PixelMap:
+        """The map of nine numbers that `as_list` gave."""
+        return PixelMap(*np.array(list(values), np.float64).reshape(3, 3))
 
 
-def front_view(size: tuple[int, int], height: float = 2.0) -> Placement:
+def front_view(size: tuple[int, int], height: float = 2.0) -> PixelMap:
     """Upright in the front view (XZ), centred on the object's origin, `height` metres tall."""
     width_px, height_px = size
     pixel = height / height_px
-    return Placement(
+    return PixelMap(
         np.array([-0.5 * width_px * pixel, 0.0, 0.5 * height]),
         np.array([pixel, 0.0, 0.0]),
         np.array([0.0, 0.0, -pixel]),
     )
 
 
-def on_empty(empty: bpy.types.Object, size: tuple[int, int]) -> Placement:
+def on_empty(empty: bpy.types.Object, size: tuple[int, int]) -> PixelMap:
     """On the picture that an image Empty shows, in the Empty's own space.
 
     Blender draws the longer side as long as the Empty's display size, after the pixel aspect.
@@ -72,7 +73,7 @@ def on_empty(empty: bpy.types.Object, size: tuple[int, int]) -> Placement:
     width = empty.empty_display_size * across / longest
     height = empty.empty_display_size * along / longest
     left, bottom = empty.empty_image_offset[0] * width, empty.empty_image_offset[1] * height
-    return Placement(
+    return PixelMap(
         np.array([left, bottom + height, 0.0]),
         np.array([width / size[0], 0.0, 0.0]),
         np.array([0.0, -height / size[1], 0.0]),

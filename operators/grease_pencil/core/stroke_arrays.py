@@ -20,10 +20,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .placement import Placement
+from .pixel_map import PixelMap
 
 if TYPE_CHECKING:
-    from ...engine import Stroke
+    from ....engine import Stroke
 
 Array = np.ndarray
 
@@ -73,6 +73,7 @@ class Curves:
 
     @property
     def sizes(self) -> Array:
+        """(n,) how many points each stroke has."""
         return np.diff(self.offsets)
 
     def point(self, name: str, default: float = 0.0) -> Array:
@@ -98,25 +99,25 @@ def column(kind: str, values: Array) -> Column:
 
 
 def stroke_curves(
-    strokes: Sequence[Stroke], placement: Placement, key: int, material: int
+    strokes: Sequence[Stroke], pixel_map: PixelMap, key: int, material: int
 ) -> Curves:
     """The engine's strokes as Grease Pencil attributes."""
     sizes = np.fromiter((len(s.points) for s in strokes), np.int32, len(strokes))
     offsets = np.concatenate([[0], np.cumsum(sizes)]).astype(np.int32)
     points = np.concatenate([s.points for s in strokes])
-    radius = np.concatenate([s.widths for s in strokes]) * (0.5 * placement.unit)
+    radius = np.concatenate([s.widths for s in strokes]) * (0.5 * pixel_map.unit)
     halves = np.fromiter(
         (int(s.branches[0]) + 1 if len(s.branches) else -1 for s in strokes), np.int32, len(sizes)
     )
     curved = np.fromiter((s.handles is not None for s in strokes), bool, len(sizes))
     point_columns = {
-        "position": column("FLOAT_VECTOR", placement.to_object(points)),
+        "position": column("FLOAT_VECTOR", pixel_map.to_object(points)),
         "radius": column("FLOAT", radius),
         "opacity": column("FLOAT", np.concatenate([s.opacity for s in strokes])),
         ALONG: column("FLOAT", lengths_along(points, offsets)),
     }
     if curved.any():
-        handles = placement.to_object(np.concatenate([_handles(s) for s in strokes]))
+        handles = pixel_map.to_object(np.concatenate([_handles(s) for s in strokes]))
         point_columns |= {
             "handle_left": column("FLOAT_VECTOR", handles[:, 0]),
             "handle_right": column("FLOAT_VECTOR", handles[:, 1]),
