@@ -290,7 +290,8 @@ class Drawing:
         page = Page.of(graph, self.settings)
         gone = [s for s in self.strokes if not changed.isdisjoint((s.branches >> 1).tolist())]
         branches = changed.union(*((s.branches >> 1).tolist() for s in gone))
-        kept = [s for s in self.strokes if not any(s is other for other in gone)]
+        left = {id(s) for s in gone}
+        kept = [s for s in self.strokes if id(s) not in left]
         made = build(page, walk(routing.partner, branches))
         strokes = sorted([*kept, *made], key=lambda s: int(s.branches.min()) >> 1)
         return replace(self, graph=graph, routing=routing, strokes=tuple(strokes), page=page)
