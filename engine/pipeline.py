@@ -21,8 +21,7 @@ from .fills.solids import split_solids
 from .graph import build_graph, measure, sweep, trim, without_pencil
 from .graph.lifts import cut_at_lifts
 from .ink.unmixing import without_inks
-from .routing import route
-from .routing.corners import clues
+from .routing import corners, route
 from .scan import read_scan
 from .scan.registration import set_aside
 from .settings import Settings
@@ -84,10 +83,9 @@ def vectorize(
         if trimmed is not graph:
             graph = measure(trimmed, lines, maps)
             routing = route(graph, settings)
-        cut, evidence = cut_at_lifts(graph, lines, maps)
-        seen = clues(evidence)
-        if seen is not None and len(seen):
-            graph = replace(cut, clues=seen)
+        if corners.available() and graph.branch_count:
+            graph, evidence = cut_at_lifts(graph, lines, maps)
+            graph = replace(graph, clues=corners.clues(evidence))
             routing = route(graph, settings)
     with clock("strokes"):
         drawing = Drawing.from_routing(graph, routing, scan, settings, fills)

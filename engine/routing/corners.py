@@ -30,7 +30,7 @@ def score(graph: PlanarGraph, fixed: Mapping[int, tuple[Pair, ...]]) -> Array:
     Raises:
         InvoluteError: the weights are damaged.
     """
-    if graph.clues is None or not len(graph.clues) or not WEIGHTS.exists():
+    if graph.clues is None or not len(graph.clues) or not available():
         return np.full(len(graph.corners), UNSEEN, np.float32)
     first = len(graph.junctions)
     decided = np.zeros(len(graph.clues))
@@ -43,14 +43,17 @@ def score(graph: PlanarGraph, fixed: Mapping[int, tuple[Pair, ...]]) -> Array:
     return found
 
 
-def clues(evidence: Array) -> Array | None:
-    """(C, K) float32 what `graph.lifts` saw at each corner, in a few numbers; None without weights.
+def available() -> bool:
+    """Whether the weights are there."""
+    return WEIGHTS.exists()
+
+
+def clues(evidence: Array) -> Array:
+    """(C, K) float32 what `graph.lifts` saw at each corner, in a few numbers.
 
     Raises:
-        InvoluteError: the weights are damaged.
+        InvoluteError: the weights are missing or damaged.
     """
-    if not WEIGHTS.exists():
-        return None
     rows = (evidence.astype(np.float64) - net()["mean"]) / net()["spread"]
     return np.tanh(forward(np.clip(rows, -5, 5), net(), "see")).astype(np.float32)
 

@@ -141,11 +141,10 @@ def test_a_cut_ends_two_strokes_there_and_joining_undoes_it(scribble, seed: int,
     number = int(rng.integers(len(before.strokes)))
     line = before.strokes[number].points
     point = line[rng.integers(len(line))]
-    try:
-        after = before.cut(number, tuple(point))
-    except InvoluteError as error:
-        assert "ends there already" in str(error)
-        return
+    tips = line[[0, -1]]
+    if not before.strokes[number].closed and np.hypot(*(tips - point).T).min() < 4:
+        return  # it ends there already
+    after = before.cut(number, tuple(point))
     old = {id(s) for s in before.strokes}
     assert len(before.strokes) - 1 <= sum(id(s) in old for s in after.strokes)
     assert len(after.junctions) == len(before.junctions)
@@ -185,6 +184,8 @@ def test_two_loose_ends_become_one_stroke() -> None:
     assert len(after.corners) == 1
     assert after.corners[0].locked
     assert len(after.cut(0, (90.0, 52.0)).strokes) == 2
+    with pytest.raises(InvoluteError, match="ends there already"):
+        drawing.cut(0, (20.0, 50.0))
     with pytest.raises(InvoluteError, match="two different ends"):
         drawing.join(ends[80], ends[80])
     with pytest.raises(InvoluteError, match="Only ends can be joined"):
