@@ -33,9 +33,10 @@ from involute.engine.strokes.walk import walk
 from involute.engine.values import LineMaps, PlanarGraph, Routing
 from scipy.spatial import cKDTree
 
-from .judged_pages import DATA, Page, pages
+from .judged_pages import DATA, JudgedPage, pages
 from .metrics import LONG_SIDE, Score, evaluate, read_svg, scaled, summarize
 from .rivals.plain_skeleton import pieces
+from .run_record import Figures
 from .tables import markdown
 
 Array = np.ndarray
@@ -55,7 +56,7 @@ _HEAD = [
 ]
 
 
-def main(argv: Sequence[str] | None = None) -> None:
+def main(argv: Sequence[str] | None = None) -> Figures:
     parser = argparse.ArgumentParser(
         prog="python -m benchmarks.graph_stage", description=__doc__.split("\n")[0]
     )
@@ -78,10 +79,18 @@ def main(argv: Sequence[str] | None = None) -> None:
         rows.append(_row(f"ideal, {len(truths)} drawings", [(draw(t), t) for t in truths]))
     if rows:
         print(markdown(_HEAD, rows), "\n")
+    figures = {row[0]: _numbers(row[1:]) for row in rows}
     if arguments.stage:
-        print(stage(pages(arguments.data)[:: arguments.every]))
-    else:
-        print(growth())
+        head, rows = stage(pages(arguments.data)[:: arguments.every])
+        print(markdown(head, rows))
+        return figures | {row[0]: _numbers(row[1:], head[1:]) for row in rows}
+    told, times = growth()
+    print(told)
+    return figures | {"growth": {"times for 16 times the area": times}}
+
+
+def _numbers(cells: Sequence[str], names: Sequence[str] = _HEAD[1:]) -> dict[str, float]:
+    return {name: float(c.rstrip(" %")) for name, c in zip(names, cells, strict=True) if c}
 
 
 def _row(name: str, cases: Iterable[tuple[Array, list[Array] | None]]) -> list[str]:
@@ -131,7 +140,7 @@ def timed(image: Array) -> tuple[float, PlanarGraph]:
     return min(seconds), graph
 
 
-def stage(drawings: Sequence[Page]) -> str:
+def stage(drawings: Sequence[JudgedPage]) -> tuple[list[str], list[list[str]]]:
     """What the graph stage brings: all else is the same, the network's centerline included."""
     settings = Settings(provider="network", router="geometric")
     scores: dict[str, list[Score]] = {"plain skeleton": [], "graph stage": []}
@@ -151,7 +160,7 @@ def stage(drawings: Sequence[Page]) -> str:
     for name, own in scores.items():
         summary = summarize(own)
         rows.append([name, *(f"{summary[key]:.3f}" for key in figures)])
-    return markdown([f"{len(drawings)} drawings", *figures.values()], rows)
+    return [f"{len(drawings)} drawings", *figures.values()], rows
 
 
 def skeleton_graph(maps: LineMaps) -> PlanarGraph:
@@ -203,7 +212,7 @@ def _dense(line: Array) -> Array:
     return np.stack([np.interp(at, arc, v) for v in line.T], -1)
 
 
-def growth() -> str:
+def growth() -> tuple[str, float]:
     """How the time grows with the page: 16 times the area with 16 times the lines."""
     rng = np.random.default_rng(5)
     t = np.linspace(0, 1, 60)[:, None]
@@ -212,7 +221,8 @@ def growth() -> str:
     tile = draw([weight @ c for c in corner], 512)
     small, large = timed(tile)[0], timed(np.tile(tile, (4, 4)))[0]
     times = large / small
-    return f"512 px, 20 lines: {small:.3f} s; 2048 px, 320 lines: {large:.3f} s ({times:.1f} x)"
+    told = f"512 px, 20 lines: {small:.3f} s; 2048 px, 320 lines: {large:.3f} s ({times:.1f} x)"
+    return told, times
 
 
 def _peak() -> float:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import argparse
 import json
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import cv2
@@ -46,15 +46,17 @@ def main() -> None:
     parser.add_argument(
         "--habit", default="as drawn", choices=KINDS, help="where the pen is lifted"
     )
+    parser.add_argument("--each", action="store_true", help="every drawing once, the richest first")
     args = parser.parse_args()
     args.out.mkdir(parents=True, exist_ok=True)
     rng = np.random.default_rng(args.seed)
     library = Library.load(args.data, held_out=True)
     media = [name for name in _PENS if name in MEDIA]
+    names = args.only or [name for name in _SOURCES if name in library.sources]
+    drawings = _richest(library, names) if args.each else _endless(rng, library, args.only)
     manifest = []
-    for number in range(args.pages):
+    for number, strokes in zip(range(args.pages), drawings, strict=False):
         name, medium = f"page_{number:03d}", media[number % len(media)]
-        strokes = _drawing(rng, library, args.only)
         pen = float(rng.uniform(*_PENS[medium]))
         strokes = lifted(rng, strokes, Habit.drawn(rng, pen, args.habit))
         image, sheet = _drawn(rng, strokes, medium, pen)
@@ -65,9 +67,9 @@ def main() -> None:
     (args.out / "manifest.json").write_text(json.dumps(manifest, indent=1), "utf-8")
 
 
-def _drawing(
+def _endless(
     rng: np.random.Generator, library: Library, only: Sequence[str] | None = None
-) -> list[Array]:
+) -> Iterator[list[Array]]:
     """True strokes that fill a page: one drawing, or several over each other."""
     names = [name for name in only or _SOURCES if name in library.sources]
     weight = np.array([_SOURCES.get(name, 1) for name in names], float)
@@ -76,12 +78,29 @@ def _drawing(
             strokes = library.page(rng)
         else:
             strokes = library.pick(rng, str(rng.choice(names, p=weight / weight.sum())))
-        low = np.min([line.min(0) for line in strokes], 0)
-        size = float((np.max([line.max(0) for line in strokes], 0) - low).max())
-        scale = (_SIDE - 2 * _MARGIN) / max(size, 1e-6)
-        strokes = single_lines([(line - low) * scale + _MARGIN for line in strokes])
+        strokes = _filling(strokes)
         if _FEWEST <= len(strokes) <= _MOST:
-            return strokes
+            yield strokes
+
+
+def _richest(library: Library, names: Sequence[str]) -> Iterator[list[Array]]:
+    """Every held-out drawing of some sets, those with the longest lines first."""
+    sets = [library.sources[name] for name in names]
+    drawings = [drawn.strokes(int(k)) for drawn in sets for k in drawn.part(library.held_out)]
+    filling = [_filling([line for line in strokes if len(line) > 1]) for strokes in drawings]
+    yield from sorted(filling, key=_length, reverse=True)
+
+
+def _filling(strokes: list[Array]) -> list[Array]:
+    """A drawing at the size of a page, each of its lines once."""
+    low = np.min([line.min(0) for line in strokes], 0)
+    size = float((np.max([line.max(0) for line in strokes], 0) - low).max())
+    scale = (_SIDE - 2 * _MARGIN) / max(size, 1e-6)
+    return single_lines([(line - low) * scale + _MARGIN for line in strokes])
+
+
+def _length(strokes: list[Array]) -> float:
+    return float(sum(np.hypot(*np.diff(line, axis=0).T).sum() for line in strokes))
 
 
 def _drawn(

@@ -25,6 +25,7 @@ from ..values import Array, Scan
 _DARK = 0.35  # ink
 _MARGIN = 0.16  # of the page: how far from its edges holes and marks are looked for
 _DEEPEST = 0.15  # of the page: a wider black area is a drawn one
+_PEN = (0.4, 1.6)  # pen widths: how wide a line along the edge is, which may be cut off by it
 _WORKING_SIDE = 3000  # px; larger pages are looked at smaller
 _LOOSE = 0.02  # of the distance between the holes: how far they may miss those of the first page
 _SIZES = (0.007, 0.09)  # of the page's longer side: smallest and largest hole or mark
@@ -174,8 +175,31 @@ def _border_depth(dark: Array, pen_width: float, shortest: float) -> Array:
     there = np.flatnonzero((depth > 0) & (depth <= deepest))
     if len(there) < max(shortest * width, window) or not _is_straight(there, depth, pen_width):
         return np.zeros(width, np.int64)
+    if _is_line(there, depth, dark, pen_width):
+        return np.zeros(width, np.int64)
     edge = np.where(depth > 0, depth + 1.5 * pen_width + 1, 0)
     return cv2.dilate(edge[None], np.ones((1, window), np.uint8))[0].astype(np.int64)
+
+
+def _is_line(there: Array, depth: Array, dark: Array, pen_width: float) -> bool:
+    """Whether a border is a drawn line along the edge: as wide as the pen all along, and at either
+    end it stops short of the picture's corner, or turns and leaves the edge.
+
+    A border of the scanner is wider, thins out where the page lies askew, or runs out of the
+    picture.
+    """
+    typical = float(np.median(depth[there]))
+    even = np.percentile(np.abs(depth[there] - typical), 80) < 0.25 * pen_width + 1
+    if not (_PEN[0] * pen_width < typical < _PEN[1] * pen_width and even):
+        return False
+    reach = int(4 * pen_width) + 4
+    below = slice(int(typical + 1.5 * pen_width) + 1, int(typical + 1.5 * pen_width) + 1 + reach)
+
+    def goes_on(end: int, corner: int) -> bool:
+        near = slice(max(0, end - reach), end + reach)
+        return abs(end - corner) > reach or dark[below, near].any(axis=1).all()
+
+    return goes_on(int(there[0]), 0) and goes_on(int(there[-1]), dark.shape[1] - 1)
 
 
 def _is_straight(there: Array, depth: Array, pen_width: float) -> bool:
