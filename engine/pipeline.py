@@ -8,7 +8,6 @@ Every stage takes the value of the stage before it and returns a new one; see `v
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from os import PathLike
 from time import perf_counter
 
@@ -18,10 +17,10 @@ from .centerline import provider_for
 from .drawing import Drawing
 from .errors import Cancelled
 from .fills.solids import split_solids
-from .graph import build_graph, measure, sweep, trim, without_pencil
-from .graph.lifts import cut_at_lifts
+from .graph import Evidence, routed, run_passes
+from .graph.passes import ROUTED
 from .ink.unmixing import without_inks
-from .routing import corners, route
+from .routing import route
 from .scan import read_scan
 from .scan.registration import set_aside
 from .settings import Settings
@@ -73,20 +72,11 @@ def vectorize(
     with clock("centerline") as tick:
         maps = provider_for(settings)(lines, tick)
     with clock("graph"):
-        graph = measure(build_graph(maps, lines.pen_width, settings), lines, maps)
-        if "gray" in settings.ignore_inks:
-            graph = measure(without_pencil(graph), lines, maps)
-        graph = sweep(graph, settings)
+        evidence = Evidence.of(lines, maps)
+        graph = run_passes(evidence, settings, until=ROUTED)
     with clock("routing"):
-        routing = route(graph, settings)
-        trimmed = trim(graph, routing.partner, settings)
-        if trimmed is not graph:
-            graph = measure(trimmed, lines, maps)
-            routing = route(graph, settings)
-        if corners.available() and graph.branch_count:
-            graph, evidence = cut_at_lifts(graph, lines, maps)
-            graph = replace(graph, clues=corners.clues(evidence))
-            routing = route(graph, settings)
+        graph, routing = routed(graph, evidence, settings, route)
+        del evidence
     with clock("strokes"):
         drawing = Drawing.from_routing(graph, routing, scan, settings, fills)
     return drawing.with_seconds(clock.seconds)

@@ -8,13 +8,16 @@ routing decides at each of them, as at a junction, whether the stroke goes on (`
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import cv2
 import numpy as np
 
 from ..arrays.sampling import sample
+from ..settings import Settings
 from ..values import LineMaps, PlanarGraph, Scan
+from .clues import available, clues
+from .evidence import Evidence
 from .topology import join, lengths
 
 Array = np.ndarray
@@ -31,6 +34,19 @@ SIDE = 11  # samples along a side of a patch
 PITCH = 0.5  # pen widths between them
 _REACH = np.array([0.5, 1.0, 1.5, 2.0, 3.0])  # pen widths beyond a corner: overshoots
 _SCALES = (0.75, 1.5, 3.0, 6.0)  # pen widths; arms over which a turn is measured
+
+
+def mark_lifts(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> PlanarGraph:
+    """Cut every branch where the pen may have been lifted.
+
+    Reads: the final, measured lines, the page and all its maps.
+    Promises: vertices of degree two, each with its clues; no line moves. Without weights or
+    without a page the graph stays.
+    """
+    if evidence.scan is None or not available():
+        return graph
+    cut, seen = cut_at_lifts(graph, evidence.scan, evidence.maps)
+    return replace(cut, clues=clues(seen))
 
 
 def cut_at_lifts(graph: PlanarGraph, scan: Scan, maps: LineMaps) -> tuple[PlanarGraph, Array]:

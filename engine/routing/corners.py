@@ -7,16 +7,13 @@ against the means of those of the whole page, and what the user has decided at o
 
 from __future__ import annotations
 
-import io
 from collections.abc import Mapping
-from functools import cache
 
 import numpy as np
 
-from .. import weights
+from ..graph.clues import available, forward, net
 from ..values import Alternative, Array, Pair, PlanarGraph
 
-WEIGHTS = weights.FOLDER / "corners.npz"
 UNSEEN = 4.0  # log-odds of going on where nothing was seen: lines of older drawings are whole
 _NEVER = 1e-4  # a lift that is less probable is no lift for any bias
 
@@ -43,21 +40,6 @@ def score(graph: PlanarGraph, fixed: Mapping[int, tuple[Pair, ...]]) -> Array:
     return found
 
 
-def available() -> bool:
-    """Whether the weights are there."""
-    return WEIGHTS.exists()
-
-
-def clues(evidence: Array) -> Array:
-    """(C, K) float32 what `graph.lifts` saw at each corner, in a few numbers.
-
-    Raises:
-        InvoluteError: the weights are missing or damaged.
-    """
-    rows = (evidence.astype(np.float64) - net()["mean"]) / net()["spread"]
-    return np.tanh(forward(np.clip(rows, -5, 5), net(), "see")).astype(np.float32)
-
-
 def judged(clues: Array, decided: Array, net: Mapping[str, Array]) -> Array:
     """(C,) log-odds of going on, given all corners of a page.
 
@@ -76,23 +58,6 @@ def page_of(clues: Array, decided: Array) -> Array:
     count = np.abs(decided).sum()
     said = [decided.sum() / (count + 1.0), count / (count + 3.0)]
     return np.concatenate([clues.mean(0), (weight * clues).sum(0) / weight.sum(), said])
-
-
-def forward(rows: Array, net: Mapping[str, Array], name: str) -> Array:
-    """Rows through the layers NAME_weight0, NAME_bias0, ... of a network, with ReLU between."""
-    layer = 0
-    while f"{name}_weight{layer}" in net:
-        rows = rows if layer == 0 else np.maximum(rows, 0.0)
-        rows = rows @ net[f"{name}_weight{layer}"] + net[f"{name}_bias{layer}"]
-        layer += 1
-    return rows
-
-
-@cache
-def net() -> dict[str, Array]:
-    """The weights."""
-    with np.load(io.BytesIO(weights.read(WEIGHTS))) as file:
-        return {name: file[name].astype(np.float64) for name in file.files}
 
 
 def goes_on(log_odds: Array, bias: float) -> Array:

@@ -16,7 +16,7 @@ from pathlib import Path
 
 import cv2
 import numpy as np
-from involute.engine.graph import build_graph, measure, sweep, trim
+from involute.engine.graph import Evidence, traced
 from involute.engine.graph.lifts import cut_at_lifts, evidence_size
 from involute.engine.routing import route
 from involute.engine.settings import Settings
@@ -109,9 +109,7 @@ def _corners(number: int) -> tuple[Array, Array, float]:
     if strokes:
         look = look_scan if rng.random() < _SCANNED else look_ink
         maps, scan = look(rng, strokes, settings)
-        graph = measure(build_graph(maps, scan.pen_width, settings), scan, maps)
-        graph = sweep(graph, settings)
-        graph = measure(trim(graph, route(graph, settings).partner, settings), scan, maps)
+        graph = traced(Evidence.of(scan, maps), settings, route, without=("lifts",))[0]
         graph, seen = cut_at_lifts(graph, scan, maps)
         if len(seen):
             page = labelled(graph, [line / scan.scale for line in strokes])

@@ -13,8 +13,8 @@ from pathlib import Path
 
 import numpy as np
 import torch
+from involute.engine.graph.clues import WEIGHTS
 from involute.engine.graph.lifts import SIDE
-from involute.engine.routing.corners import WEIGHTS
 from torch import nn
 
 from .. import digests
@@ -80,7 +80,7 @@ def _layers(sizes: list[int], dropout: float) -> nn.Sequential:
 
 
 def weights(model: Lifts) -> dict[str, Array]:
-    """The network as `engine.routing.corners` reads it."""
+    """The network as `engine.graph.clues` reads it."""
     found = {"mean": model.mean.numpy(), "spread": model.spread.numpy()}
     for name in ("see", "judge"):
         linear = [layer for layer in getattr(model, name) if isinstance(layer, nn.Linear)]
