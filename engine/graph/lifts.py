@@ -18,6 +18,7 @@ from ..settings import Settings
 from ..values import LineMaps, PlanarGraph, Scan
 from .clues import available, clues
 from .evidence import Evidence
+from .nearby import near_pairs
 from .topology import join, lengths
 
 Array = np.ndarray
@@ -33,6 +34,8 @@ FREE, LEAST_FREE = 3.0, 8  # pen widths and px from a free end, which the endpoi
 SIDE = 11  # samples along a side of a patch
 PITCH = 0.5  # pen widths between them
 _REACH = np.array([0.5, 1.0, 1.5, 2.0, 3.0])  # pen widths beyond a corner: overshoots
+_SHARP = np.radians(60.0)  # a turn that nobody takes for a curve
+_IN_LINE = np.cos(np.radians(35.0))  # two directions that are one line
 _SCALES = (0.75, 1.5, 3.0, 6.0)  # pen widths; arms over which a turn is measured
 
 
@@ -221,7 +224,7 @@ def evidence_size() -> int:
     return _PLAIN + 3 * SIDE * SIDE
 
 
-_PLAIN = len(_SCALES) + 11 + 11 + 4 * len(_REACH) + 12 + 5
+_PLAIN = len(_SCALES) + 11 + 11 + 4 * len(_REACH) + 12 + 15
 
 
 def _two(a: Array, b: Array) -> list[Array]:
@@ -362,24 +365,86 @@ def _between(course: _Course, places: Array, scan: Scan, maps: LineMaps) -> Arra
 
 
 def _page(course: _Course, places: Array, maps: LineMaps) -> Array:
-    """What the whole page is like, the same for all its corners."""
+    """How the whole page is drawn, the same for all its corners: most lifts are no corners of two
+    half-branches, since ends that overshoot make junctions, and those that miss stay loose."""
     graph, pen = course.graph, course.pen
-    total = max(float(lengths(graph).sum()) / pen, 1.0)
-    free = graph.half_vertex[graph.degrees[graph.half_vertex] == 1]
-    loose = graph.degrees[graph.ends].min(1) == 1
-    loose &= (graph.degrees[graph.ends].max(1) >= 3) & (lengths(graph) < 4 * pen)
+    length = lengths(graph) / pen
+    total = max(float(length.sum()), 1.0)
+    arm = max(LEAST_ARM, round(ARM * pen))
+    sharp = float((course.turn(places, arm) > _SHARP).sum())
+    free = np.flatnonzero(graph.degrees[graph.half_vertex] == 1)
+    loose = graph.degrees[graph.ends].min(1, initial=9) == 1
+    loose &= graph.degrees[graph.ends].max(1, initial=0) >= 3
+    nubs = [float((loose & (length >= a) & (length < b)).sum()) for a, b in ((0, 2), (2, 5))]
+    missed = _missed(course, free)
     heat = 0.0
     if maps.endpoints is not None and len(free):
         near = cv2.dilate(maps.endpoints, np.ones((5, 5), np.uint8))
-        heat = float(sample(near, graph.vertices[free]).mean())
+        heat = float(sample(near, graph.vertices[graph.half_vertex[free]]).mean())
     about = [
         np.log(pen),
+        np.log1p(sharp),
+        np.log(total),
         10 * len(free) / total,
-        10 * float(loose.sum()) / total,
+        10 * len(graph.junctions) / total,
         10 * len(places) / total,
         heat,
+        _bent_forks(course),
+        *(count / (count + sharp + 2) for count in (*nubs, *missed)),
     ]
     return np.tile(about, (len(places), 1))
+
+
+def _missed(course: _Course, free: Array) -> list[float]:
+    """How many loose ends are near another line (1, 2 and 3 pens away), and how many pairs of
+    them are near each other, at an angle and in line."""
+    graph, pen = course.graph, course.pen
+    if not len(free):
+        return [0.0] * 5
+    tips = graph.vertices[graph.half_vertex[free]].astype(np.float64)
+    branch = free >> 1
+    count = np.diff(graph.offsets)
+    owner = np.repeat(np.arange(graph.branch_count), count)
+    every = np.arange(0, len(graph.points), 2)
+    a, b = near_pairs(np.concatenate([tips, course.points[every]]), 3 * pen).T
+    one = (a < len(free)) & (b >= len(free))  # pairs are ascending
+    a, b = a[one], every[b[one] - len(free)]
+    other = owner[b] != branch[a]
+    # What hangs on the same vertex as a short branch is near its tip anyway.
+    far = graph.half_vertex[free ^ 1]
+    hangs = (graph.ends[owner[b]] == far[a, None]).any(1) & (count[branch[a]] < 6 * pen)
+    a, b = a[other & ~hangs], b[other & ~hangs]
+    nearest = np.full(len(free), np.inf)
+    np.minimum.at(nearest, a, np.hypot(*(tips[a] - course.points[b]).T) / pen)
+    a, b = near_pairs(tips, 3 * pen).T
+    close = (branch[a] != branch[b]) & (np.hypot(*(tips[a] - tips[b]).T) < 3 * pen)
+    out = _outward(course, free)
+    line = (out[a[close]] * out[b[close]]).sum(1) < -_IN_LINE
+    found = [float((nearest < k).sum()) for k in (1, 2, 3)]
+    return [*found, float((~line).sum()), float(line.sum())]
+
+
+def _outward(course: _Course, halves: Array) -> Array:
+    """(N, 2) unit directions in which half-branches arrive at their vertices."""
+    graph = course.graph
+    branch, back = halves >> 1, (halves & 1) == 1
+    tip = np.where(back, graph.offsets[branch + 1] - 1, graph.offsets[branch]).astype(np.int64)
+    reach = max(LEAST_ARM, round(2 * course.pen))
+    way = course.points[tip] - course.points[course.step(tip, np.where(back, -reach, reach))]
+    return way / np.maximum(np.hypot(*way.T), 1e-9)[:, None]
+
+
+def _bent_forks(course: _Course) -> float:
+    """Share of the junctions of three at which no line runs straight on."""
+    graph = course.graph
+    forks = graph.junctions[graph.degrees[graph.junctions] == 3]
+    if not len(forks):
+        return 0.0
+    order, starts = graph.halves_at
+    out = _outward(course, order[starts[forks][:, None] + np.arange(3)].reshape(-1))
+    out = out.reshape(-1, 3, 2)
+    straight = np.min([(out[:, i] * out[:, j]).sum(1) for i, j in ((0, 1), (0, 2), (1, 2))], axis=0)
+    return float((straight > -_IN_LINE).mean())
 
 
 def patches(course: _Course, places: Array, scan: Scan, maps: LineMaps) -> Array:
