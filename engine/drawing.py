@@ -16,7 +16,7 @@ import numpy as np
 from .errors import InvoluteError
 from .graph.editing import cut_branch, join_ends, place_on
 from .routing import checked_pairs, route
-from .routing.corners import goes_on
+from .routing.lifting import goes_on
 from .settings import Settings
 from .strokes import Page, build, walk
 from .values import Junction, Pair, PlanarGraph, Routing, Scan, Stroke

@@ -1,6 +1,6 @@
 """What the picture says about a lift at each corner, in the few numbers that a drawing keeps.
 
-The first round of a small network, `lifts` makes its input; `routing.corners` has the second, which
+The first round of a small network, `lifts` makes its input; `routing.lifting` has the second, which
 looks at all corners of a page. training/corners makes the weights of both.
 """
 

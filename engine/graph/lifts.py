@@ -3,7 +3,7 @@
 Nothing but the picture can say whether an artist drew around a corner or began anew there: ends
 overshoot, stop short, taper, or miss each other. So a branch is cut wherever it turns suddenly,
 fades, or where the endpoint map sees an end in its course. The new vertices have degree two, and
-routing decides at each of them, as at a junction, whether the stroke goes on (`routing.corners`).
+routing decides at each of them, as at a junction, whether the stroke goes on (`routing.lifting`).
 """
 
 from __future__ import annotations

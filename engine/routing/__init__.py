@@ -1,7 +1,7 @@
 """PlanarGraph -> Routing: which half-branches continue in which.
 
 Every pair of half-branches at a junction gets a score (log-odds of being one line), by a network
-or by geometry, and so does the one pair at each corner (`corners`); the best involution of every
+or by geometry, and so does the one pair at each corner (`lifting`); the best involution of every
 junction follows, with its ranked alternatives.
 """
 
@@ -15,7 +15,7 @@ from ..errors import InvoluteError
 from ..graph.topology import joined
 from ..settings import Settings
 from ..values import Pair, PlanarGraph, Routing
-from . import corners
+from . import lifting
 from .alternatives import ranked_alternatives
 from .candidates import candidate_pairs
 
@@ -35,7 +35,7 @@ def route(graph: PlanarGraph, settings: Settings, fixed: Fixed | None = None) ->
     """
     fixed = {place: checked_pairs(graph, place, pairs) for place, pairs in (fixed or {}).items()}
     pairs = candidate_pairs(graph)
-    turns = corners.score(graph, fixed)
+    turns = lifting.score(graph, fixed)
     crossing = len(pairs) - len(turns)
     score = np.concatenate([_at_junctions(graph, pairs[:crossing], fixed, settings), turns])
     alternatives = ranked_alternatives(graph, score, fixed)
@@ -44,7 +44,7 @@ def route(graph: PlanarGraph, settings: Settings, fixed: Fixed | None = None) ->
     chosen = np.array(
         [pair for ways in chosen[: len(graph.junctions)] for pair in ways], np.int32
     ).reshape(-1, 2)
-    on = corners.goes_on(turns, settings.corners)
+    on = lifting.goes_on(turns, settings.corners)
     for place, ways in fixed.items():
         if place >= len(graph.junctions):
             on[place - len(graph.junctions)] = bool(ways)
@@ -64,12 +64,12 @@ def with_corners(routing: Routing, graph: PlanarGraph) -> Routing:
     if missing != len(graph.corners) or len(routing.alternatives) != len(routing.locked):
         return routing
     pairs = candidate_pairs(graph)[-missing:] if missing else routing.pairs[:0]
-    score = np.full(missing, corners.UNSEEN, np.float32)
+    score = np.full(missing, lifting.UNSEEN, np.float32)
     return Routing(
         routing.partner,
         np.concatenate([routing.pairs, pairs]),
         np.concatenate([routing.pair_score, score]),
-        routing.alternatives + corners.alternatives(pairs, score),
+        routing.alternatives + lifting.alternatives(pairs, score),
         np.concatenate([routing.locked, np.zeros(missing, bool)]),
     )
 

@@ -15,7 +15,7 @@ from involute.engine.formats.drawing_json import dumps, read
 from involute.engine.graph.lifts import cut_at_lifts, evidence_size
 from involute.engine.graph.topology import join
 from involute.engine.routing import route
-from involute.engine.routing.corners import goes_on
+from involute.engine.routing.lifting import goes_on
 from involute.engine.values import LineMaps, PlanarGraph, Scan
 from involute.synthesis.true_graph import graph_from_strokes
 

@@ -1,4 +1,4 @@
-"""Learn at which corners the pen was lifted, for `engine/routing/corners.py`.
+"""Learn at which corners the pen was lifted, for `engine/routing/lifting.py`.
 
 `python -m training.corners.train_corners --train FILE ... --held-out FILE` trains on what
 `lift_pages` gathered and writes engine/weights/corners.npz; the held-out pages choose when to stop.
@@ -52,7 +52,7 @@ class Lifts(nn.Module):
 
 
 def _about(clues: Tensor, page: Tensor, decided: Tensor) -> Tensor:
-    """What `engine.routing.corners.page_of` makes, for many pages at once."""
+    """What `engine.routing.lifting.page_of` makes, for many pages at once."""
     pages = int(page.max()) + 1
 
     def total(values: Tensor) -> Tensor:
