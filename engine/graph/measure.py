@@ -8,11 +8,9 @@ import numpy as np
 
 from ..arrays.sampling import sample
 from ..settings import Settings
-from ..values import PlanarGraph, Scan
+from ..values import Array, PlanarGraph, Scan
 from .evidence import Evidence
 from .limits import LIMITS
-
-Array = np.ndarray
 
 _STEP = 0.5  # px between the samples across a line
 

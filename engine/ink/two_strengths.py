@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-Array = np.ndarray
+from ..values import Array
 
 # Of 12 pages (benchmarks.pencil_under_ink), strengths seen along lines and in pixels: ink over
 # pencil has up to 0.62 and 0.06 between, pencil of uneven pressure alone 0.65 and more.
