@@ -53,7 +53,7 @@ def main() -> None:
     library = Library.load(args.data, held_out=True)
     media = [name for name in _PENS if name in MEDIA]
     names = args.only or [name for name in _SOURCES if name in library.sources]
-    drawings = _richest(library, names) if args.each else _endless(rng, library, args.only)
+    drawings = _richest(library, names) if args.each else endless(rng, library, args.only)
     manifest = []
     for number, strokes in zip(range(args.pages), drawings, strict=False):
         name, medium = f"page_{number:03d}", media[number % len(media)]
@@ -67,7 +67,7 @@ def main() -> None:
     (args.out / "manifest.json").write_text(json.dumps(manifest, indent=1), "utf-8")
 
 
-def _endless(
+def endless(
     rng: np.random.Generator, library: Library, only: Sequence[str] | None = None
 ) -> Iterator[list[Array]]:
     """True strokes that fill a page: one drawing, or several over each other."""

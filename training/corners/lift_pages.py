@@ -23,6 +23,7 @@ from involute.engine.settings import Settings
 from involute.engine.values import PlanarGraph
 
 from ...synthesis.composed_pages import Library, loosened
+from ...synthesis.held_out_pages import endless
 from ...synthesis.pen_lifts import Habit, lifted
 from ..routing.labels import labelled, unowned
 from ..routing.traced import MOST_FALSE, look_ink, look_scan, on_canvas
@@ -30,7 +31,7 @@ from ..routing.traced import MOST_FALSE, look_ink, look_scan, on_canvas
 Array = np.ndarray
 
 _SCANNED = 0.75  # share of the pages; the others are even ink
-_SIDE = 540.0  # px; larger drawings are drawn smaller or in part, so that tracing stays quick
+_SIZE = (0.6, 1.0)  # of a page of the benchmark's size: smaller ones are traced sooner
 _PEN = 4.0  # px; a habit moves ends by shares of this
 _PIECE = 40  # pages between two writings of the file
 JOINED, LIFTED, UNKNOWN = 1, 0, -1
@@ -103,7 +104,9 @@ def _prepare(data: Path, held_out: bool, seed: int) -> None:
 def _corners(number: int) -> tuple[Array, Array, float]:
     """Evidence and truth of one page, and its habit; none when it is no example."""
     rng, settings = np.random.default_rng((_seed, number)), Settings()
-    strokes = smaller(rng, loosened(rng, _library.page(rng)))
+    strokes = next(endless(rng, _library))
+    size = rng.uniform(*_SIZE)
+    strokes = loosened(rng, [line * size for line in strokes])
     habit = Habit.drawn(rng, _PEN)
     strokes = on_canvas(lifted(rng, strokes, habit))
     if strokes:
@@ -116,18 +119,6 @@ def _corners(number: int) -> tuple[Array, Array, float]:
             if unowned(page) < MOST_FALSE:
                 return seen.astype(np.float16), truth_at(graph, page), habit.corners
     return np.zeros((0, evidence_size()), np.float16), np.zeros(0, np.int8), habit.corners
-
-
-def smaller(rng: np.random.Generator, strokes: list[Array]) -> list[Array]:
-    """A page that is larger than `_SIDE`, drawn smaller by half at most, and only a part of it."""
-    if not strokes:
-        return strokes
-    low = np.min([line.min(0) for line in strokes], 0)
-    size = float((np.max([line.max(0) for line in strokes], 0) - low).max())
-    scale = min(1.0, max(0.5, _SIDE / size))
-    strokes = [(line - low) * scale for line in strokes]
-    middle = strokes[int(rng.integers(len(strokes)))].mean(0)
-    return [line for line in strokes if np.abs(line - middle).max() < _SIDE / 2] or strokes
 
 
 def truth_at(graph: PlanarGraph, page: object) -> Array:
