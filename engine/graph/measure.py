@@ -31,6 +31,8 @@ def measure(graph: PlanarGraph, scan: Scan, maps: LineMaps) -> PlanarGraph:
         return graph
     if maps.half_width is not None:
         widths = 2 * sample(maps.half_width, graph.points)
+        if np.isnan(widths).any():  # where another provider has seen the line
+            widths = np.where(np.isnan(widths), _widths(graph, scan), widths)
     else:
         widths = _widths(graph, scan)
     widths = np.where(np.isfinite(widths) & (widths > 0), widths, scan.pen_width)

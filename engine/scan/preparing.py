@@ -49,7 +49,8 @@ def read_scan(source: Source, settings: Settings, page: int = 0) -> Scan:
     if settings.provider == "given":
         luma = cv2.cvtColor(picture, cv2.COLOR_RGB2GRAY) if picture.ndim == 3 else picture
         return Scan(unit(luma), None, 1.0, (width, height), settings.pen_width or 2.0)
-    if is_light_on_dark(picture, settings):
+    light = is_light_on_dark(picture, settings)
+    if light:
         picture = with_lightness_inverted(picture)
     gray = darkest_gray(picture)
     ink = flatten_paper(unit(gray)) if gray.size <= _FLAT_WHOLE else None
@@ -58,7 +59,8 @@ def read_scan(source: Source, settings: Settings, page: int = 0) -> Scan:
     if ink is None or scale != 1.0:
         ink = flatten_paper(unit(_resized(gray, scale)))
     color = as_bytes(_resized(picture, scale)) if picture.ndim == 3 else None
-    return Scan(ink, color, scale, (width, height), pen / scale)
+    guessed = light and settings.polarity == "auto"
+    return Scan(ink, color, scale, (width, height), pen / scale, light=guessed)
 
 
 def _working_scale(pen: float, width: int, height: int) -> float:

@@ -51,6 +51,7 @@ TEXTS = {
     "Finding the junctions": "Kreuzungen werden gesucht",
     "Routing the junctions": "Kreuzungen werden verbunden",
     "Drawing the strokes": "Striche werden gezeichnet",
+    "Comparing with the ink": "Vergleich mit der Tinte",
     "{done} of {count} frames": "{done} von {count} Bildern",
     "Result": "Ergebnis",
     "{strokes:,} strokes, {solids:,} solids, {seconds:.1f} s": (
