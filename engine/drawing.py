@@ -101,7 +101,7 @@ class Drawing:
 
     def compared_with(self, scan: Scan) -> Drawing:
         """The same drawing, checked against the ink of the page that it was traced from."""
-        found = fidelity(self.strokes, self.fills, scan.ink, self.scale)
+        found = fidelity(self.strokes, self.fills, scan.ink, self.scale, self.settings.width_scale)
         return replace(self, fidelity=found, warnings=warnings(found, scan.light))
 
     @cached_property

@@ -52,7 +52,11 @@ class Fidelity:
 
 
 def fidelity(
-    strokes: Sequence[Stroke], fills: Iterable[Sequence[Array]], ink: Array, scale: float
+    strokes: Sequence[Stroke],
+    fills: Iterable[Sequence[Array]],
+    ink: Array,
+    scale: float,
+    width_scale: float = 1.0,
 ) -> Fidelity:
     """Compare a drawing with its page.
 
@@ -60,12 +64,13 @@ def fidelity(
         strokes, fills: in px of the input.
         ink: (H, W) float32 in [0, 1], all that was to be traced; working pixels.
         scale: input pixels per working pixel.
+        width_scale: how many times too wide the strokes are on purpose.
     """
     clear = _without_specks(ink > _CLEAR)
     some = _without_specks(ink > _SOME)
     beside = max(1.0, _BESIDE / scale)
     lines = [_around(stroke) / scale - 0.5 for stroke in strokes]
-    thick = [float(stroke.widths.mean()) / scale + 2 * beside for stroke in strokes]
+    thick = [float(stroke.widths.mean()) / width_scale / scale + 2 * beside for stroke in strokes]
     lost = clear & ~_drawn(ink.shape, lines, thick, fills, scale, beside)
     paper = cv2.distanceTransform((~some).view(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5) > beside
     along = [_every_pixel(line) for line in lines]

@@ -23,7 +23,9 @@ from .ink.unmixing import without_inks
 from .routing import route
 from .scan import read_scan
 from .scan.registration import set_aside
+from .scan.wide_lines import find_wide_lines
 from .settings import Settings
+from .wide_pens import look_again
 
 Progress = Callable[[str, float], None]
 Source = str | PathLike[str] | np.ndarray
@@ -69,11 +71,15 @@ def vectorize(
         scan = set_aside(read_scan(source, settings, page=page), settings)
         scan = without_inks(scan, settings)
     with clock("solids"):
-        lines, fills = split_solids(scan, settings)
+        wide = find_wide_lines(scan, settings)
+        lines, fills = split_solids(scan, settings, wide.near if wide.any else None)
     with clock("centerline") as tick:
-        maps = provider_for(settings)(lines, tick)
+        look = provider_for(settings)
+        maps = look(lines, tick)
+        if wide.any:
+            maps = look_again(maps, lines, wide, look, settings)
         if settings.provider in ("auto", "network") and maps.half_width is not None:
-            maps = mended(maps, lines)
+            maps = mended(maps, lines, wide.near if wide.any else None)
     with clock("graph"):
         graph = measure(build_graph(maps, lines.pen_width, settings), lines, maps)
         if "gray" in settings.ignore_inks:

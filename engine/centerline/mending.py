@@ -23,6 +23,8 @@ _BESIDE = 2.0  # px that ink may reach beyond the line that was seen in it
 _SHORTEST = 3.0  # pen widths; a shorter piece of uncovered ink is an edge, a blot or grain
 _BROKEN = (3.0, 8.0)  # pen widths, px: a longer crest over bare paper is no gap of the pen
 _COVERED = 0.6  # of a piece that the ridge filter must cover to be believed
+_DOT = 0.4  # squared pen widths of ink that a dot has at least
+_MOST_DOTS = 2000  # more uncovered pieces are no dots but grain
 _HALF_BLIND = (0.3, 0.5)  # end and junction maps where nobody looked: neither yes nor no
 _CONTEXT = 12  # pen widths that the ridge filter sees around a piece
 
@@ -36,23 +38,28 @@ class _Pieces:
     stats: Array
 
 
-def mended(maps: LineMaps, scan: Scan) -> LineMaps:
+def mended(maps: LineMaps, scan: Scan, done: Array | None = None) -> LineMaps:
     """The maps with the lines that the network left out, and without those it made up.
 
     Args:
         maps: of the network; where the ridge filter was asked, half_width is NaN.
         scan: what it looked at.
+        done: (H, W) bool, where lines have been looked at twice already.
     """
     crest = maps.centerline > _CREST
     maps = _without_made_up(maps, crest, scan)
     clear = scan.ink > _CLEAR
+    if done is not None:
+        clear &= ~done
     if not clear.any():
         return maps
-    lost = _long(clear & ~_covered(crest, clear), _SHORTEST * scan.pen_width)
-    if not len(lost.chosen):
-        return maps
-    found = _ridges_near(lost, scan)
-    good = _believed(lost, found > _CREST, clear)
+    uncovered = clear & ~covered(crest, clear)
+    found, good = np.zeros_like(scan.ink), np.zeros_like(clear)
+    lost = _long(uncovered, _SHORTEST * scan.pen_width)
+    if len(lost.chosen):
+        found = _ridges_near(lost, scan)
+        good = _believed(lost, found > _CREST, clear)
+    good |= _with_dots(found, clear, uncovered & ~good, scan.pen_width)
     if not good.any():
         return maps
     reach = int(np.ceil(scan.pen_width)) + 4
@@ -62,9 +69,12 @@ def mended(maps: LineMaps, scan: Scan) -> LineMaps:
     return _merged(maps, found, near)
 
 
-def _covered(crest: Array, clear: Array) -> Array:
-    """(H, W) bool: the pixels within the half width of the line at the nearest crest, or a little
-    beyond."""
+def covered(crest: Array, clear: Array) -> Array:
+    """(H, W) bool: the pixels no farther from a crest than the ink there is deep, or a little more.
+
+    Args:
+        crest, clear: (H, W) bool, where lines run and where ink is.
+    """
     if not crest.any():
         return crest
     away, nearest = cv2.distanceTransformWithLabels(
@@ -108,12 +118,38 @@ def _no_tick(_: float) -> None:
 def _believed(lost: _Pieces, crest: Array, clear: Array) -> Array:
     """(H, W) bool: the lost pieces whose ink the new crests cover."""
     place = np.isin(lost.label, lost.chosen) if len(lost.chosen) else np.zeros_like(crest)
-    covered = np.bincount(
-        lost.label[place & _covered(crest & place, clear)], minlength=len(lost.stats)
-    )
-    good = covered >= _COVERED * lost.stats[:, cv2.CC_STAT_AREA]
+    size = np.bincount(lost.label[place & covered(crest & place, clear)], minlength=len(lost.stats))
+    good = size >= _COVERED * lost.stats[:, cv2.CC_STAT_AREA]
     good[0] = False
     return place & good[lost.label]
+
+
+def _with_dots(found: Array, clear: Array, uncovered: Array, pen: float) -> Array:
+    """Draw a crest into each small piece of ink that has none at all; (H, W) bool, these pieces.
+
+    A dot gets a crest just long enough to have a direction, a dash one through its middle.
+    """
+    count, label, stats, middle = cv2.connectedComponentsWithStats(clear.view(np.uint8))
+    size = stats[:, cv2.CC_STAT_AREA]
+    whole = np.bincount(label[uncovered], minlength=count) >= size
+    extent = stats[:, [cv2.CC_STAT_WIDTH, cv2.CC_STAT_HEIGHT]].max(1)
+    whole &= (size >= _DOT * pen**2) & (extent <= (_SHORTEST + 1) * pen)
+    whole[0] = False
+    if not 0 < np.count_nonzero(whole) <= _MOST_DOTS:
+        return np.zeros_like(clear)
+    rows, columns = np.nonzero(whole[label])
+    piece = label[rows, columns]
+    x, y = columns - middle[piece, 0], rows - middle[piece, 1]
+    xx, xy, yy = (np.bincount(piece, v, count) / size for v in (x * x, x * y, y * y))
+    # A rod's variance is a twelfth of its length squared.
+    mean, spread = (xx + yy) / 2, np.hypot((xx - yy) / 2, xy)
+    long, wide = np.sqrt(12 * (mean + spread)), np.sqrt(12 * np.maximum(mean - spread, 0))
+    angle = 0.5 * np.arctan2(2 * xy, xx - yy)
+    arm = np.maximum(long - wide, 1.0)[:, None] / 2 * np.stack([np.cos(angle), np.sin(angle)], 1)
+    for k in np.flatnonzero(whole):
+        ends = np.int32(np.round((middle[k] + np.outer((-1, 1), arm[k])) * 16))
+        cv2.line(found, tuple(ends[0].tolist()), tuple(ends[1].tolist()), 1.0, 2, shift=4)
+    return whole[label]
 
 
 def _without_made_up(maps: LineMaps, crest: Array, scan: Scan) -> LineMaps:

@@ -26,10 +26,15 @@ _FRINGE = 1.5  # px; how far the soft edge of an area reaches
 _DETAIL = 0.1  # px; how far an outline may stray when points are saved
 
 
-def split_solids(scan: Scan, settings: Settings) -> tuple[Scan, list[Fill]]:
+def split_solids(
+    scan: Scan, settings: Settings, lines: Array | None = None
+) -> tuple[Scan, list[Fill]]:
     """Take the areas much wider than the pen out of a scan.
 
     What is narrower stays, also where it touches an area: such a line ends at the border.
+
+    Args:
+        lines: (H, W) bool, what is a line however wide it is.
 
     Returns:
         The scan without the areas, and the areas in working pixels.
@@ -38,7 +43,10 @@ def split_solids(scan: Scan, settings: Settings) -> tuple[Scan, list[Fill]]:
         return scan, []
     soft = cv2.GaussianBlur(scan.ink, (0, 0), 0.6)
     wide, widest = (max(px, pens * scan.pen_width) for pens, px in (_WIDE, _WIDEST))
-    area = _areas((soft > 0.5).astype(np.uint8), wide / 2, widest / 2)
+    dark = (soft > 0.5).astype(np.uint8)
+    if lines is not None:
+        dark[lines] = 0
+    area = _areas(dark, wide / 2, widest / 2)
     if not area.any():
         return scan, []
     near = _distance_to(area > 0) <= _FRINGE

@@ -8,10 +8,12 @@ import numpy as np
 
 from ..arrays.sampling import sample
 from ..values import LineMaps, PlanarGraph, Scan
+from .topology import lengths
 
 Array = np.ndarray
 
 _STEP = 0.5  # px between the samples across a line
+_DOT = 1.0  # px; a shorter branch is a dot
 _ALONG = 4  # points on either side that agree on a width
 
 
@@ -31,8 +33,11 @@ def measure(graph: PlanarGraph, scan: Scan, maps: LineMaps) -> PlanarGraph:
         return graph
     if maps.half_width is not None:
         widths = 2 * sample(maps.half_width, graph.points)
-        if np.isnan(widths).any():  # where another provider has seen the line
-            widths = np.where(np.isnan(widths), _widths(graph, scan), widths)
+        # Of a dot the network sees half; nothing where another provider has seen the line.
+        dot = np.repeat(lengths(graph) < _DOT, np.diff(graph.offsets))
+        unknown = np.isnan(widths) | dot
+        if unknown.any():
+            widths = np.where(unknown, _widths(graph, scan), widths)
     else:
         widths = _widths(graph, scan)
     widths = np.where(np.isfinite(widths) & (widths > 0), widths, scan.pen_width)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...arrays.two_clusters import finer_pen
 from ...settings import Settings
 from ...values import PlanarGraph
 from ..topology import connected, lengths, means, select
@@ -12,6 +13,8 @@ Array = np.ndarray
 
 _SPECK = 0.25  # pen widths of ink that a piece needs beyond Settings.min_length
 _FULL_INK = 80  # percentile of strength that counts as the full ink of the page
+_DOT = 0.75  # pen widths, for each of Settings.min_length: the least width of a dot
+_SOLID = 0.8  # share of the full ink that a dot has at least
 _FAINT = 0.5  # share of the full ink below which a piece is as likely a scratch as a line
 
 
@@ -19,11 +22,12 @@ def sweep(graph: PlanarGraph, settings: Settings) -> PlanarGraph:
     """Drop every connected piece of a measured graph with too little ink to be a stroke.
 
     The fainter a piece is, beside the other lines of the page, the longer it must be: a pencil
-    line is long, a scratch or a fold of the paper rarely is.
+    line is long, a scratch or a fold of the paper rarely is. A dot of full ink, nearly as wide as
+    the pen, is drawn.
     """
     if graph.branch_count == 0:
         return graph
-    pen = float(np.median(graph.widths))
+    pen = float(np.median(finer_pen(graph.widths)))
     full = max(float(np.percentile(graph.strength, _FULL_INK)), 1e-3)
     label = connected(len(graph.vertices), graph.ends)
     piece = np.unique(label[graph.ends[:, 0]], return_inverse=True)[1]
@@ -35,4 +39,7 @@ def sweep(graph: PlanarGraph, settings: Settings) -> PlanarGraph:
     share = np.bincount(piece, weight * dark) / mass
     shortest = settings.min_length * np.maximum(_FAINT / np.maximum(share, 0.01), 1.0) ** 2
     stays = np.bincount(piece, length) + cap >= (shortest + _SPECK) * pen
+    if settings.dots:
+        round_ = np.bincount(piece, length) <= cap
+        stays |= round_ & (share >= _SOLID) & (cap >= _DOT * settings.min_length * pen)
     return select(graph, stays[piece])
