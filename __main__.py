@@ -4,16 +4,24 @@ import handed to it: Blender for .blend files, the benchmark's metrics for `eval
 
 from __future__ import annotations
 
+import signal
 import sys
+import threading
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command line; see `command.cli.main`."""
+    usual = signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    alone = usual and threading.current_thread() is threading.main_thread()
+    if alone:
+        signal.signal(signal.SIGINT, signal.SIG_DFL)  # nothing to clear away yet: just end
     from .command import cli
     from .operators.blend_file import BLEND
 
+    if alone:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
     return cli.main(argv, formats=[BLEND], evaluate=_evaluate)
 
 

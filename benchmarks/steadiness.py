@@ -21,6 +21,7 @@ import cv2
 import numpy as np
 from involute.command import trace_sequence
 from involute.engine import Drawing, Settings
+from involute.engine.arrays.ragged import along, arc
 from involute.engine.sequence import number_frames
 from involute.engine.sequence.stroke_matching import match_strokes, sample_strokes
 from scipy.spatial import cKDTree
@@ -166,9 +167,8 @@ def label(drawing: Drawing, truth: Sequence[Array]) -> dict[int, tuple[int, bool
 
 def dense(points: Array) -> Array:
     """The same line with a point a pixel."""
-    along = np.concatenate([[0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
-    at = np.linspace(0, along[-1], max(2, int(along[-1])))
-    return np.stack([np.interp(at, along, points[:, k]) for k in (0, 1)], 1)
+    whole = arc(points)[-1]
+    return along(points, np.linspace(0, whole, max(2, int(whole))))
 
 
 def _common(

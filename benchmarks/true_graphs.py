@@ -15,10 +15,10 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
+from involute.engine.involution import MAX_LISTED_DEGREE
 from involute.engine.routing import geometric, network
 from involute.engine.routing.candidates import candidate_pairs
 from involute.engine.routing.encoding import along
-from involute.engine.routing.involution import MAX_LISTED_DEGREE
 from involute.engine.values import Pair, PlanarGraph
 from involute.synthesis.true_graph import graph_from_strokes
 from involute.training.routing.judge import Verdict, judge, tables

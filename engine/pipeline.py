@@ -18,7 +18,8 @@ from .centerline.mending import mended
 from .drawing import Drawing
 from .errors import Cancelled
 from .fills.solids import split_solids
-from .graph import build_graph, measure, sweep, trim, without_pencil
+from .graph import Evidence, routed, run_passes
+from .graph.passes import ROUTED
 from .ink.unmixing import without_inks
 from .routing import route
 from .scan import read_scan
@@ -81,16 +82,11 @@ def vectorize(
         if settings.provider in ("auto", "network") and maps.half_width is not None:
             maps = mended(maps, lines, wide.near if wide.any else None)
     with clock("graph"):
-        graph = measure(build_graph(maps, lines.pen_width, settings), lines, maps)
-        if "gray" in settings.ignore_inks:
-            graph = measure(without_pencil(graph), lines, maps)
-        graph = sweep(graph, settings)
+        evidence = Evidence.of(lines, maps)
+        graph = run_passes(evidence, settings, until=ROUTED)
     with clock("routing"):
-        routing = route(graph, settings)
-        trimmed = trim(graph, routing.partner, settings)
-        if trimmed is not graph:
-            graph = measure(trimmed, lines, maps)
-            routing = route(graph, settings)
+        graph, routing = routed(graph, evidence, settings, route)
+        del evidence
     with clock("strokes"):
         drawing = Drawing.from_routing(graph, routing, scan, settings, fills)
     with clock("check"):

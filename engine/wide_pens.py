@@ -14,7 +14,7 @@ import numpy as np
 
 from .centerline import CenterlineProvider
 from .centerline.mending import covered
-from .graph import build_graph
+from .graph import Evidence, build_graph
 from .scan.wide_lines import WideLines
 from .settings import Settings
 from .values import Array, LineMaps, PlanarGraph, Scan
@@ -75,7 +75,7 @@ def _seen_anew(
     # The grain of a pencil, averaged, is grey: full ink again.
     small = np.clip(small / max(float(np.quantile(small[small > 0.3], 0.7)), 0.3), 0, 1)
     seen = look(replace(scan, ink=small, color=None, pen_width=_PEN), lambda _: None)
-    graph = build_graph(seen, _PEN, settings)
+    graph = build_graph(Evidence(seen, _PEN), settings)
     centerline = np.where(near, np.float32(0), maps.centerline)
     np.maximum(centerline, _drawn(graph, scale, near), out=centerline)
 

@@ -1,13 +1,13 @@
 """All tests, each in the environments that it is for: the README's test command.
 
-    uv run --extra blender --extra test --extra bench python tests/run.py [NAME ...]
+    python3 bootstrap.py --extra test --extra bench python tests/run.py [NAME ...]
 
     main    this environment: ruff, then every test; the Blender ones against the built extension
     4.5     bpy 4.5 on Python 3.11: the same extension
     5.2     bpy 5.2 on Python 3.13: the same extension
     torch   training tests, in an environment made by plain pip from training/requirements.txt
 
-The environments are made when missing, in .venv-NAME. Standard library only.
+The environments are made when missing, in .venv-NAME.
 """
 
 from __future__ import annotations
@@ -21,6 +21,8 @@ import time
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
+
+from involute.operators import system_libraries
 
 ROOT = Path(__file__).resolve().parents[1]
 PYTEST = "pytest==9.2.0"
@@ -36,6 +38,8 @@ def main(argv: list[str] | None = None) -> int:
     names = parser.parse_args(argv).names or list(RUNS)
     if unknown := set(names) - set(RUNS):
         parser.error(f"unknown: {', '.join(sorted(unknown))}; choose from {', '.join(RUNS)}")
+    if libraries := system_libraries.missing():
+        raise SystemExit(system_libraries.lacks(libraries))
     outcomes = {}
     for name in names:
         print(f"\n==== {name} ====", flush=True)
@@ -146,7 +150,7 @@ def _interpreter(version: str) -> str:
 
 
 def _uv() -> list[str]:
-    found = os.environ.get("UV") or shutil.which("uv")
+    found = os.environ.get("UV") or shutil.which("uv")  # uv tells those that it runs
     return [found] if found else [sys.executable, "-m", "uv"]
 
 

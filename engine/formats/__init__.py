@@ -25,6 +25,7 @@ class Format:
 
     suffix: such as ".svg".
     about: what it is, for people; a phrase.
+    endings: how a whole file ends, apart from blanks and zeros; one that was cut short does not.
     write: writes one drawing to a path.
     read: makes a drawing of a text and the file's name; None where it can't be read back.
     write_many: writes (name, drawing) pairs to one path; None where a file holds one drawing.
@@ -33,6 +34,7 @@ class Format:
 
     suffix: str
     about: str
+    endings: tuple[bytes, ...]
     write: Callable[[Drawing, Path], None] | None = None
     read: Callable[[str, str], Drawing] | None = None
     write_many: Callable[[Sequence[tuple[str, Drawing]], Path], None] | None = None
@@ -42,6 +44,13 @@ class Format:
     def name(self) -> str:
         """As `--format` takes it: svg."""
         return self.suffix.lstrip(".")
+
+    def save(self, drawing: Drawing, name: str, path: Path) -> None:
+        """Write one drawing, which goes by that name, to a path."""
+        if self.write:
+            self.write(drawing, path)
+        elif self.write_many:
+            self.write_many([(name, drawing)], path)
 
 
 def _later(module: str, function: str) -> Callable[..., Any]:
@@ -57,18 +66,21 @@ FORMATS = (
     Format(
         suffix=".svg",
         about="a path per stroke, for every vector program",
+        endings=(b"</svg>",),
         write=_later("svg", "write"),
         read=_later("svg", "read"),
     ),
     Format(
         suffix=".json",
         about="everything, junctions and their alternatives too, for Involute and Python",
+        endings=(b"}",),
         write=_later("drawing_json", "write"),
         read=_later("drawing_json", "read"),
     ),
     Format(
         suffix=".png",
         about="a picture to look at: each stroke in its own color, junctions ringed",
+        endings=(b"IEND\xaeB`\x82",),
         write=_later("png", "write"),
     ),
 )

@@ -12,9 +12,9 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from ..involution import MAX_LISTED_DEGREE, best_matching, involutions, pair_matrix, pairs_of
 from ..values import Alternative, Pair, PlanarGraph
 from .candidates import by_degree, pair_starts
-from .involution import MAX_LISTED_DEGREE, best_matching, involutions, pair_matrix, pairs_of
 
 Array = np.ndarray
 

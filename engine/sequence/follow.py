@@ -13,6 +13,7 @@ from dataclasses import dataclass, field, replace
 import cv2
 import numpy as np
 
+from ..arrays.ragged import arc
 from ..drawing import Drawing
 from ..ink.known_inks import Color, with_known_inks
 from ..values import Array, Stroke
@@ -77,7 +78,7 @@ def _started_like(stroke: Stroke, old: Stroke, share: float) -> Stroke:
     if not stroke.closed:
         return stroke
     around = np.vstack([stroke.points, stroke.points[:1]])
-    along = np.concatenate([[0], np.cumsum(np.hypot(*np.diff(around, axis=0).T))])
+    along = arc(around)
     off = np.abs((along[:-1] / along[-1] - share + 0.5) % 1.0 - 0.5)
     start = old.points[0] + _middle(stroke) - _middle(old)
     there = np.hypot(*(stroke.points - start).T) / along[-1]

@@ -10,12 +10,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...engine import InvoluteError
+from ...engine.formats.picture_kinds import SUFFIXES
 from ..language import message
 
 if TYPE_CHECKING:
     import bpy
-
-SUFFIXES = (".png", ".jpg", ".jpeg", ".tif", ".tiff", ".webp", ".bmp")
 
 
 @dataclass(frozen=True, eq=False)

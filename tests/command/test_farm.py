@@ -14,6 +14,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from involute.command import cli
+from involute.command.arguments import parser
 from involute.command.cli import main
 from involute.command.farm import frame_ranges, write_job
 from involute.command.setting_options import settings_options
@@ -141,8 +142,8 @@ def test_every_setting_can_be_handed_on():
         curve="bezier",
     )
     words = settings_options(settings)
-    options = cli._parser().parse_args(["trace", "a.png", "-o", "b.svg", *words])
-    assert cli._settings(options) == settings
+    options = parser().parse_args(["trace", "a.png", "-o", "b.svg", *words])
+    assert cli.settings_of(options) == settings
 
 
 def test_bad_call_is_one_sentence():

@@ -18,8 +18,9 @@ from involute.training import digests, lineage
 RENEW = "run `python -m training.digests` and commit engine/weights/digests.json"
 FINGERPRINT = """
 import sys
-from program.command.batch import Task, fingerprint
-print(fingerprint(Task(sys.argv[1], ("a.svg",))))
+from program.command.receipts import fingerprint
+from program.engine import Settings
+print(fingerprint(sys.argv[1], 0, Settings()))
 """
 TRACE = """
 import sys

@@ -9,10 +9,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from involute.engine import Settings
-from involute.engine.graph import trim
+from involute.engine.graph import Evidence
+from involute.engine.graph.removal.stubs import remove_stubs
 from involute.engine.graph.topology import lengths
 from involute.engine.routing import route
-from involute.engine.values import PlanarGraph
+from involute.engine.values import LineMaps, PlanarGraph
 from involute.synthesis.true_graph import graph_from_strokes
 
 PEN = 3.0
@@ -24,6 +25,12 @@ def measured(*strokes) -> tuple[PlanarGraph, np.ndarray]:
     """The graph of strokes of one pen, and how they run through it."""
     graph, partner = graph_from_strokes([np.asarray(s, float) for s in strokes])
     return replace(graph, widths=np.full(len(graph.points), PEN, np.float32)), partner
+
+
+def trim(graph: PlanarGraph, partner: np.ndarray, settings: Settings) -> PlanarGraph:
+    """The graph without its stubs."""
+    page = Evidence(LineMaps(np.zeros((1, 1), np.float32)), PEN)
+    return remove_stubs(graph, page.routed(partner), settings)
 
 
 def test_a_rung_between_two_lines_goes():

@@ -9,11 +9,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from involute.engine import InvoluteError, Settings
+from involute.engine.involution import best_matching, involutions, pair_matrix
 from involute.engine.routing import route
 from involute.engine.routing.alternatives import neighbourhood, ranked_alternatives
 from involute.engine.routing.candidates import candidate_pairs
 from involute.engine.routing.features import half_features
-from involute.engine.routing.involution import best_matching, involutions, pair_matrix
 from involute.engine.values import PlanarGraph
 from involute.synthesis.true_graph import graph_from_strokes
 

@@ -21,9 +21,9 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+from involute.engine.involution import pair_matrix
 from involute.engine.routing.candidates import by_degree, candidate_pairs, pair_starts
 from involute.engine.routing.features import FEATURES, pair_features
-from involute.engine.routing.involution import pair_matrix
 from involute.engine.values import PlanarGraph
 from involute.synthesis.library import DrawingSet, read_sets
 from involute.synthesis.true_graph import graph_from_strokes

@@ -17,7 +17,8 @@ import cv2
 import numpy as np
 from involute.engine.centerline import provider_for
 from involute.engine.fills.solids import split_solids
-from involute.engine.graph import build_graph, measure, sweep
+from involute.engine.graph import Evidence, run_passes
+from involute.engine.graph.passes import MEASURED, ROUTED
 from involute.engine.scan.picture import MIN_SIDE
 from involute.engine.scan.preparing import read_scan
 from involute.engine.settings import Settings
@@ -79,15 +80,20 @@ def traced_page(rng: np.random.Generator, library: Library, settings: Settings) 
         return None
     look = (look_ideal, look_ink, look_scan)[int(rng.choice(3, p=_KINDS))]
     maps, scan = look(rng, strokes, settings)
-    page = labelled(graph_of(maps, scan, settings), [line / scan.scale for line in strokes])
+    strokes = [line / scan.scale for line in strokes]
+    page = labelled(graph_of(maps, scan, settings), strokes)
+    # Stubs go as the true strokes tell them: what is left is what the last routing will see.
+    known = Evidence.of(scan, maps).routed(page.partner)
+    left = run_passes(known, settings, page.graph, start=ROUTED) if scan.ink.any() else page.graph
+    page = page if left is page.graph else labelled(left, strokes)
     good = len(page.graph.junctions) and unowned(page) < MOST_FALSE
     return page if good else None
 
 
 def graph_of(maps: LineMaps, scan: Scan, settings: Settings) -> PlanarGraph:
-    """The graph as the engine makes it; an ideal page has no ink to measure, nor dust."""
-    graph = build_graph(maps, scan.pen_width, settings)
-    return sweep(measure(graph, scan, maps), settings) if scan.ink.any() else graph
+    """The graph as the engine first routes it; an ideal page has no ink to measure, nor dust."""
+    cut = ROUTED if scan.ink.any() else MEASURED
+    return run_passes(Evidence.of(scan, maps), settings, until=cut)
 
 
 def on_canvas(strokes: list[Array]) -> list[Array]:

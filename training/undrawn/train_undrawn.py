@@ -17,7 +17,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 import torch
-from involute.engine.graph import all_lines
+from involute.engine.graph import Evidence, run_passes
 from involute.engine.graph.removal.undrawn import FEATURES, WEIGHTS, features
 from involute.engine.graph.topology import lengths
 from involute.engine.settings import Settings
@@ -93,13 +93,14 @@ def _branches(number: int) -> tuple[Array, Array]:
     look = look_scan if rng.random() < _SCANNED else look_ink
     if strokes:
         maps, scan = look(rng, strokes + dots, settings)
-        graph, value = all_lines(maps, scan.pen_width, settings)
+        evidence = Evidence.of(scan, maps)
+        graph = run_passes(evidence, settings, until="undrawn")
         if graph.branch_count:
             page = labelled(graph, [line / scan.scale for line in strokes + dots])
             false = page.stroke[graph.offsets[:-1]] < 0
             false &= ~_on_dots(graph, [dot / scan.scale for dot in dots])
             if unowned(page) < MOST_FALSE:
-                return features(graph, value, maps, scan.pen_width).astype(np.float32), false
+                return features(graph, evidence).astype(np.float32), false
     return np.zeros((0, FEATURES), np.float32), np.zeros(0, bool)
 
 
