@@ -24,6 +24,7 @@ from .ink.unmixing import without_inks
 from .routing import route
 from .scan import read_scan
 from .scan.registration import set_aside
+from .scan.screentone import without_screentone
 from .scan.wide_lines import find_wide_lines
 from .settings import Settings
 from .wide_pens import look_again
@@ -70,7 +71,7 @@ def vectorize(
     clock = _Clock(progress)
     with clock("scan"):
         scan = set_aside(read_scan(source, settings, page=page), settings)
-        scan = without_inks(scan, settings)
+        scan = without_screentone(without_inks(scan, settings), settings)
     with clock("solids"):
         wide = find_wide_lines(scan, settings)
         lines, fills = split_solids(scan, settings, wide.near if wide.any else None)

@@ -143,6 +143,20 @@ class Settings:
         tip="Lines wider than this, in pixels of the picture, are solid areas; 0 finds out from "
         "the pen",
     )
+    sheet: bool = _switch(
+        True,
+        group=WHAT,
+        label="Leave Out Surroundings",
+        tip="Don't trace what lies beyond the sheet in a photograph: cloth, a desk, a finger",
+        off="trace what lies beyond the sheet in a photograph too",
+    )
+    screentone: bool = _switch(
+        True,
+        group=WHAT,
+        label="Leave Out Screentone",
+        tip="Don't trace areas of evenly set dots, such as the tones of a comic",
+        off="trace every dot of a screentone",
+    )
     marks: bool = _switch(
         True,
         group=WHAT,

@@ -20,6 +20,7 @@ Fill = tuple[Array, ...]
 """One area: its outer ring, then the rings of its holes; each (N, 2) float32, closed, px."""
 
 _WIDE, _WIDEST = (3.2, 7.0), (5.0, 10.0)  # diameters in pen widths, and at least in px
+_NARROWER = 0.7  # of the width from which on it is an area, that the rest of it has at least
 _REACH = 2.0  # widest diameters; how far an area goes on from its widest parts
 _LONG, _EVEN, _STROKE = 4.0, 0.8, 16.0  # a line is so many widths long, so even, and so wide in px
 _FRINGE = 1.5  # px; how far the soft edge of an area reaches
@@ -46,18 +47,22 @@ def split_solids(
     dark = (soft > 0.5).astype(np.uint8)
     if lines is not None:
         dark[lines] = 0
-    area = _areas(dark, wide / 2, widest / 2)
+    longest = _STROKE
+    if settings.solid_width:  # the user knows what is an area here
+        longest = widest = max(settings.solid_width / scan.scale, 2.0)
+        wide = min(wide, _NARROWER * widest)
+    area = _areas(dark, wide / 2, widest / 2, longest)
     if not area.any():
         return scan, []
     near = _distance_to(area > 0) <= _FRINGE
     return replace(scan, ink=np.where(near, np.float32(0), scan.ink)), _outlines(area, soft)
 
 
-def _areas(dark: Array, wide: float, widest: float) -> Array:
+def _areas(dark: Array, wide: float, widest: float, stroke: float) -> Array:
     """The dark pixels that belong to areas, (H, W) uint8, 0 or 1.
 
     An area is what discs of radius `wide` can paint within the dark, around a place where even one
-    of radius `widest` fits; but a long even line stays a line.
+    of radius `widest` fits; but a long even line stays a line up to a width of `stroke`.
     """
     depth = distance.depth(dark)
     seed = depth > widest
@@ -76,7 +81,7 @@ def _areas(dark: Array, wide: float, widest: float) -> Array:
     crest = np.bincount(owner[middle], minlength=count)
     mean_depth = np.bincount(owner[middle], depth[middle], minlength=count) / np.maximum(crest, 1)
     width = 2 * deepest
-    is_line = (size > _LONG * width**2) & (mean_depth > _EVEN * deepest) & (width < _STROKE)
+    is_line = (size > _LONG * width**2) & (mean_depth > _EVEN * deepest) & (width < stroke)
     is_area = (deepest > widest) & ~is_line
     return (painted & is_area[owner]).astype(np.uint8)
 

@@ -138,6 +138,14 @@ TEXTS = {
     "Pink": "Rosa",
     "Gray": "Grau",
     "Solid Width": "Flächenbreite",
+    "Leave Out Screentone": "Rasterfolie weglassen",
+    "Don't trace areas of evenly set dots, such as the tones of a comic": (
+        "Flächen aus gleichmäßig gesetzten Punkten nicht nachziehen, etwa die Töne eines Comics"
+    ),
+    "Leave Out Surroundings": "Umgebung weglassen",
+    "Don't trace what lies beyond the sheet in a photograph: cloth, a desk, a finger": (
+        "Was auf einem Foto neben dem Blatt liegt, nicht nachziehen: Stoff, Tisch, ein Finger"
+    ),
     "Lines wider than this, in pixels of the picture, are solid areas; 0 finds out from the pen": (
         "Linien, die breiter sind (in Bildpunkten), sind Flächen; 0 ermittelt es aus der Feder"
     ),
