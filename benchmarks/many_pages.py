@@ -24,7 +24,7 @@ from pathlib import Path
 
 import cv2
 import numpy as np
-from involute.command.batch import RECEIPTS
+from involute.command.receipts import FOLDER as RECEIPTS
 from involute.engine import Drawing, InvoluteError
 
 from .run_record import Figures
@@ -77,7 +77,7 @@ def main(argv: Sequence[str] | None = None) -> Figures:
     first = trace(images, broken, options.jobs, stop_at=options.count // 2)
     time.sleep(1.0)
     done = {p.name: p.stat().st_mtime_ns for p in broken.glob("*.svg")}
-    receipts = {p.stem for p in (broken / RECEIPTS).glob("*.json")}
+    receipts = {f"{p.stem}.svg" for p in (broken / RECEIPTS).glob("*.json")}
     unreadable = [name for name in done if not _is_whole(broken / name)]
     print(f"killed after {first.seconds:.0f} s: {len(done)} drawings, {len(receipts)} receipts")
     second = trace(images, broken, options.jobs)

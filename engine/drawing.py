@@ -18,9 +18,8 @@ from .fidelity import Fidelity, fidelity, warnings
 from .routing import checked_pairs, route
 from .settings import Settings
 from .strokes import Page, build, walk
-from .values import Junction, Pair, PlanarGraph, Routing, Scan, Stroke
+from .values import Array, Junction, Pair, PlanarGraph, Routing, Scan, Stroke
 
-Array = np.ndarray
 Fill = tuple[Array, ...]
 
 DOUBTFUL = 0.3  # doubt from which on a junction is worth a look

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-Array = np.ndarray
+from ..values import Array
 
 _BROADER = 3.0  # times as wide as the other: a second pen
 _OWN, _BETWEEN = 0.1, 0.15  # of the lines: what each pen has at least; what is neither, at most

@@ -6,6 +6,7 @@ engine may not import (Blender) declares its format where it is, and hands it to
 
 from __future__ import annotations
 
+import stat
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from importlib import import_module
@@ -17,6 +18,9 @@ from ..errors import InvoluteError
 
 if TYPE_CHECKING:
     from ..drawing import Drawing
+
+
+_LARGEST = 2**29  # bytes of a file; the drawing of a page of 8192 px has some 2**24
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -115,6 +119,11 @@ def load(path: str | PathLike[str]) -> Drawing:
     if reader is None:
         raise InvoluteError(f"{path.name} holds no drawing; choose a {either(known)} file.")
     try:
+        found = path.stat()
+        if not stat.S_ISREG(found.st_mode):
+            raise InvoluteError(f"{path} is no file; give a {either(known)} file.")
+        if found.st_size > _LARGEST:
+            raise InvoluteError(f"{path.name} is larger than any drawing; trace the picture again.")
         text = path.read_text(encoding="utf-8")
     except FileNotFoundError:
         raise InvoluteError(f"There is no file {path}; check the path.") from None

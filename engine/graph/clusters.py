@@ -14,12 +14,10 @@ import numpy as np
 
 from ..arrays.ragged import ranges
 from ..involution import least_cost
-from ..values import PlanarGraph
+from ..values import Array, PlanarGraph
 from .continuations import ALONE, Continuations, Fits, pairs_within
 from .limits import LIMITS
 from .topology import connected, lengths
-
-Array = np.ndarray
 
 LARGEST = 8  # half-branches of one cluster
 

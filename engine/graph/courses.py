@@ -14,11 +14,9 @@ import numpy as np
 
 from ..arrays.ragged import owners
 from ..arrays.sampling import sample
-from ..values import PlanarGraph
+from ..values import Array, PlanarGraph
 from .evidence import Evidence
 from .limits import LIMITS
-
-Array = np.ndarray
 
 WINDOW = 16  # points of a half-branch, outside its cluster, that tell where it goes
 

@@ -8,11 +8,9 @@ from functools import cached_property
 import cv2
 import numpy as np
 
-from ..values import LineMaps, Scan
+from ..values import Array, LineMaps, Scan
 from .limits import LIMITS
 from .ridge import Ridge
-
-Array = np.ndarray
 
 
 @dataclass(frozen=True, eq=False)

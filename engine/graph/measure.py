@@ -8,12 +8,10 @@ import numpy as np
 
 from ..arrays.sampling import sample
 from ..settings import Settings
-from ..values import PlanarGraph, Scan
+from ..values import Array, PlanarGraph, Scan
 from .evidence import Evidence
 from .limits import LIMITS
 from .topology import lengths
-
-Array = np.ndarray
 
 _STEP = 0.5  # px between the samples across a line
 _DOT = 1.0  # px; a shorter branch is a dot, as `skeleton_graph` makes them

@@ -14,9 +14,8 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
+from ..values import Array
 from .limits import LIMITS
-
-Array = np.ndarray
 
 BAND = 512  # rows whose derivatives are held at a time, so that large pages need little memory
 

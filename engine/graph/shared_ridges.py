@@ -14,11 +14,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..arrays.sampling import sample
+from ..values import Array
 from .continuations import FADE, SAMPLES, pairs_within
 from .courses import Courses
 from .limits import LIMITS
-
-Array = np.ndarray
 
 STATIONS = 24  # places along both curves at which the map is compared
 ACROSS = np.linspace(-2.1, 2.1, 7)  # px to both sides of each curve

@@ -8,9 +8,8 @@ import cv2
 import numpy as np
 
 from ..arrays.ragged import offsets_of, owners
+from ..values import Array
 from .chains import follow
-
-Array = np.ndarray
 
 # The 8 neighbours (row, column): right, down, left, up, then the diagonals between them.
 _STEPS = np.array([(0, 1), (1, 0), (0, -1), (-1, 0), (1, 1), (1, -1), (-1, -1), (-1, 1)])

@@ -6,11 +6,9 @@ import numpy as np
 
 from ..arrays.ragged import count_up, offsets_of, steps
 from ..settings import Settings
-from ..values import PlanarGraph
+from ..values import Array, PlanarGraph
 from .chains import follow
 from .evidence import Evidence
-
-Array = np.ndarray
 
 
 def select(graph: PlanarGraph, keep: Array) -> PlanarGraph:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-Array = np.ndarray
+from ..values import Array
 
 _HUES = 36  # bins round the colour circle
 

@@ -9,12 +9,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..values import PlanarGraph
+from ..values import Array, PlanarGraph
 from .hue_peaks import hue_peaks, turn
 from .pencil import pencil
 from .tint import NEUTRAL, branch_colors, chroma_and_hue, tint
 
-Array = np.ndarray
 Color = tuple[int, int, int]
 
 _BLACK = 110.0  # grey value below which a neutral ink is simply black

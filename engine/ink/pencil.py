@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..values import PlanarGraph
+from ..values import Array, PlanarGraph
 from .tint import NEUTRAL, branch_colors, tint
 from .two_strengths import split_strengths
-
-Array = np.ndarray
 
 _SOFT = 0.8  # px; how far a scanner spreads the ink of a line
 _INNER = 0.2  # of a branch at either end: other lines are near

@@ -8,9 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..values import PlanarGraph
-
-Array = np.ndarray
+from ..values import Array, PlanarGraph
 
 NEUTRAL = 0.3  # greatest chroma of black ink
 _PAPER = 0.05  # mean density below which paper, not ink, decides the tint

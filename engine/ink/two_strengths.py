@@ -7,11 +7,8 @@ and firmly drawn pencil stays together.
 
 from __future__ import annotations
 
-import numpy as np
-
 from ..arrays.two_clusters import Split, best_split
-
-Array = np.ndarray
+from ..values import Array
 
 # Of 12 pages (benchmarks.pencil_under_ink), strengths seen along lines and in pixels: ink over
 # pencil has up to 0.62 and 0.06 between, pencil of uneven pressure alone 0.65 and more.

@@ -13,10 +13,8 @@ from collections.abc import Mapping
 import numpy as np
 
 from ..involution import MAX_LISTED_DEGREE, best_matching, involutions, pair_matrix, pairs_of
-from ..values import Alternative, Pair, PlanarGraph
+from ..values import Alternative, Array, Pair, PlanarGraph
 from .candidates import by_degree, pair_starts
-
-Array = np.ndarray
 
 KEPT = 6  # alternatives a person would look at
 

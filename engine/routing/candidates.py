@@ -6,9 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ..values import PlanarGraph
-
-Array = np.ndarray
+from ..values import Array, PlanarGraph
 
 
 def by_degree(graph: PlanarGraph) -> Iterator[tuple[Array, Array]]:

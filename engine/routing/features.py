@@ -10,9 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..ink.tint import tint
-from ..values import PlanarGraph
-
-Array = np.ndarray
+from ..values import Array, PlanarGraph
 
 DEFAULT_WIDTH = 4.0  # px; for graphs whose widths were not measured
 # Stretches of a half-branch, in pen widths from its junction. Right at the junction lines run

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..values import Stroke
+from ..values import Array, Stroke
 from .bezier import fit
 from .corners import find_corners, sharpen
 from .fairing import margin, smooth
@@ -14,8 +14,6 @@ from .lines import Lines, Pieces
 from .shared import SAMPLES_PER_PEN, Page
 from .simplify import simplify
 from .walk import Walk
-
-Array = np.ndarray
 
 _WIDTH_BLUR = 1.0  # pen widths; sigma of the smoothing of widths along a stroke
 _OPACITY_BLUR = 3.0  # pen widths; the same of opacity, which is noisier

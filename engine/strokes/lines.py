@@ -8,10 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays.ragged import count_up
+from ..values import Array
 from .shared import Page
 from .walk import Walk
-
-Array = np.ndarray
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,9 +13,7 @@ from ..arrays.two_clusters import finer_pen
 from ..ink.palette import Inks
 from ..ink.pencil import undimmed
 from ..settings import Settings
-from ..values import PlanarGraph
-
-Array = np.ndarray
+from ..values import Array, PlanarGraph
 
 SAMPLES_PER_PEN = 4  # samples along a line of one pen width
 _BLOB = 1.0  # pen widths around a junction where other lines spoil the width; twice that to be sure

@@ -11,8 +11,6 @@ from ..evidence import Evidence
 from ..limits import LIMITS
 from ..topology import connected, lengths, means, select
 
-Array = np.ndarray
-
 
 def remove_dust(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> PlanarGraph:
     """Drop every connected piece of a measured graph with too little ink to be a stroke.

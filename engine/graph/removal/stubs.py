@@ -16,8 +16,6 @@ from ..evidence import Evidence
 from ..limits import LIMITS
 from ..topology import connected, join, lengths, select
 
-Array = np.ndarray
-
 
 def remove_stubs(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> PlanarGraph:
     """Drop the stubs of a graph that was routed; without a routing all stay.

@@ -18,13 +18,11 @@ import numpy as np
 from ... import weights
 from ...arrays.sampling import sample
 from ...settings import Settings
-from ...values import PlanarGraph
+from ...values import Array, PlanarGraph
 from ..continuations import pairs_within
 from ..evidence import Evidence
 from ..limits import LIMITS
 from ..topology import join, lengths, means, select
-
-Array = np.ndarray
 
 WEIGHTS = weights.FOLDER / "undrawn.npz"
 FEATURES = 11 + 2 * 11  # of a branch: its own, and those of its two ends
