@@ -201,6 +201,16 @@ class Settings:
         tip="0 keeps every wobble of the hand, 1 is very smooth",
         more="Corners stay",
     )
+    corners: float = _number(
+        0.0,
+        -1.0,
+        1.0,
+        group=CLEAN,
+        label="Pen Lifts",
+        tip="Where strokes end though only two lines meet: 0 where it looks as if the pen was "
+        "lifted, -1 nowhere, 1 wherever it may have been",
+        more="See [corners](junctions.md#corners)",
+    )
     provider: str = _one_of(
         ("auto", "Automatic", "The trained network when it is there, else the ridge filter"),
         ("network", "Network", "Trained on pencil, ink, chalk and bad scans"),

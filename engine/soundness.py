@@ -86,6 +86,9 @@ def check_graph(graph: PlanarGraph) -> None:
         if values is not None:
             _table(values, kind, shape, f"the {name} of the branches")
             _within(values, _THICKEST, f"the {name} of the branches")
+    if graph.clues is not None:  # of a corner that the artist made there are none
+        _need(graph.clues.ndim == 2, "the clues of the corners are not a table of the right size")
+        _table(graph.clues, "f", (len(graph.corners), None), "the clues of the corners")
     if graph.widths is not None:
         _need((graph.widths >= 0).all(), "the widths of the branches are below zero")
 
@@ -108,11 +111,11 @@ def check_routing(graph: PlanarGraph, routing: Routing) -> None:
     _need((at[a] == at[b]).all(), "a pair of half-branches does not meet")
     _table(routing.pair_score, "f", (len(routing.pairs),), "the scores of the pairs")
     _need(not np.isnan(routing.pair_score).any(), "the scores of the pairs are no numbers")
-    junctions = graph.junctions
-    _table(routing.locked, "b", (len(junctions),), "which junctions are locked")
-    _need(len(routing.alternatives) == len(junctions), "the alternatives don't fit the junctions")
+    places = graph.places
+    _table(routing.locked, "b", (len(places),), "which junctions are locked")
+    _need(len(routing.alternatives) == len(places), "the alternatives don't fit the junctions")
     for number, ways in enumerate(routing.alternatives):
-        _check_ways(ways, set(graph.halves_of(junctions[number]).tolist()), f"junction {number}")
+        _check_ways(ways, set(graph.halves_of(places[number]).tolist()), f"junction {number}")
 
 
 def _check_ways(ways: tuple[Alternative, ...], halves: set[int], where: str) -> None:

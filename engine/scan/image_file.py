@@ -27,7 +27,10 @@ from .tiff_directories import DamagedTiffError
 
 _ORIENTATION = 0x0112  # EXIF tag
 _HEAD = 64  # bytes that show what a file is
-_GIF_PER_BYTE = 4096  # px that one byte of a GIF can stand for, at the very most
+# Pixels that one byte can stand for at most: the longest string of a GIF, 4096 in 9 bits; 64 in two
+# bits of a JPEG, and four times as many in runs of empty blocks.
+_PER_BYTE = {"GIF": 4096, "JPEG": 1024}
+_FRAME_HEADERS = frozenset({*range(0xC0, 0xD0)} - {0xC4, 0xC8, 0xCC})  # of a JPEG
 
 
 def read_image(path: str | PathLike[str], page: int = 0) -> Array:
@@ -39,7 +42,10 @@ def read_image(path: str | PathLike[str], page: int = 0) -> Array:
     Raises:
         InvoluteError: missing, damaged, too large, or not an image.
     """
-    path = Path(path)
+    try:
+        path = Path(path)
+    except TypeError:
+        raise InvoluteError("Give the path of an image, or an array of its pixels.") from None
     if movie.is_movie(path):
         return cv2.cvtColor(movie.read_image(path, page), cv2.COLOR_BGR2RGB)
     with _opened(path) as file:
@@ -118,8 +124,8 @@ def _decode(data: Array, page: int, kind: Kind | None) -> Array | None:
     picture = own(data.tobytes()) if own else None
     if picture is not None or name in ("TGA", "PSD"):
         return picture
-    if name == "GIF" and _gif_size(data) > _GIF_PER_BYTE * len(data):
-        return None
+    if name in _PER_BYTE and _claimed(data, name) > _PER_BYTE[name] * len(data):
+        return None  # before room is made for pixels that can't be there
     picture, kinds, metadata = cv2.imdecodeWithMetadata(data, cv2.IMREAD_UNCHANGED)
     if picture is None:
         return None
@@ -164,12 +170,18 @@ def _as_rgb(picture: Array) -> Array:
     return picture
 
 
-def _gif_size(data: Array) -> int:
-    """Pixels that a GIF says it has."""
-    if len(data) < 10:
-        return 0
-    width, height = struct.unpack("<HH", data[6:10].tobytes())
-    return width * height
+def _claimed(data: Array, name: str) -> int:
+    """Pixels that a GIF or JPEG says it has; 0 when it does not say."""
+    if name == "GIF":
+        width, height = struct.unpack("<HH", data[6:10].tobytes().ljust(4, b"\0"))
+        return width * height
+    at = 2
+    while at + 9 <= len(data) and data[at] == 0xFF:
+        if int(data[at + 1]) in _FRAME_HEADERS:
+            height, width = struct.unpack(">HH", data[at + 5 : at + 9].tobytes())
+            return width * height
+        at += 2 + int.from_bytes(data[at + 2 : at + 4].tobytes(), "big")
+    return 0
 
 
 def _bmp_with_alpha(data: bytes) -> Array | None:

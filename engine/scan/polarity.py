@@ -27,7 +27,7 @@ def is_light_on_dark(picture: Array, settings: Settings) -> bool:
         )
     # The median is the paper wherever lines cover less than half of the surroundings. Mirrored at
     # the picture's edge: OpenCV would repeat the edge, and a line there would be the paper.
-    reach = min(255, min(small.shape) // 2 | 1)
+    reach = max(3, min(255, min(small.shape) // 2 | 1))
     margin = reach // 2
     around = cv2.copyMakeBorder(small, *4 * [margin], cv2.BORDER_REFLECT)
     paper = cv2.medianBlur(around, reach)[margin:-margin, margin:-margin]

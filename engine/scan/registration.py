@@ -174,7 +174,7 @@ def _border_depth(dark: Array, pen_width: float, shortest: float) -> Array:
     height, width = dark.shape
     deepest = int(_DEEPEST * height)
     strip = dark[: deepest + 4].astype(bool)
-    strip[:3] |= strip[3]  # scanners like to leave a few odd rows at the very edge
+    strip[:3] |= strip[3:4].any(axis=0)  # scanners leave a few odd rows at the very edge
     depth = np.where(strip.all(axis=0), len(strip), strip.argmin(axis=0)).astype(np.float32)
     # Lines that end on the border are narrow; a border is not.
     window = max(3, int(6 * pen_width)) | 1

@@ -43,10 +43,10 @@ class Lines:
         of_half = np.repeat(np.arange(len(half)), count)
         backward = (half & 1)[of_half] == 1
         branch = half[of_half] >> 1
+        joint = (inside == 0) & page.crossed[half[of_half]]  # a corner is no junction
         sample = np.where(
             backward, page.offsets[branch + 1] - 1 - inside, page.offsets[branch] + inside
         )
-        joint = (inside == 0) & ~page.lonely[branch]  # where a circle begins is no junction
         size = np.add.reduceat(count, np.cumsum(steps) - steps)
         origin = np.cumsum(size) - size
 

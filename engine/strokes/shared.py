@@ -33,7 +33,7 @@ class Page:
     points: (M, 2) float64; branch b has the samples offsets[b]:offsets[b + 1].
     widths, opacity: (M,) float64; trust: (M,) weight in [0, 1], 0 where a junction spoils them.
     length: (B,) px.
-    lonely: (B,) bool; the branch is a whole line that hangs on nothing.
+    crossed: (2B,) bool; the half-branch starts at a junction.
     inks: the colours of the page.
     solid: (K,) bool for each of them; its strokes are opaque.
     """
@@ -45,7 +45,7 @@ class Page:
     opacity: Array
     trust: Array
     length: Array
-    lonely: Array
+    crossed: Array
     inks: Inks
     solid: Array
     settings: Settings
@@ -92,7 +92,6 @@ class Page:
         opacity = np.ones(len(points))
         if graph.strength is not None:
             opacity = _opacity(undimmed(graph.strength, widths), inks.ink[branch])
-        free = (graph.degrees[graph.ends] <= 1).all(1)
         return cls(
             pen=pen,
             points=at(points),
@@ -101,7 +100,7 @@ class Page:
             opacity=at(opacity)[:, 0],
             trust=np.clip(near / (_BLOB * pen) - 1.0, 0.0, 1.0),
             length=length,
-            lonely=free | (graph.degrees[graph.ends] == 2).all(1),
+            crossed=graph.degrees[graph.half_vertex] >= 3,
             inks=inks,
             solid=_solid(opacity, branch, inks, settings.opacity),
             settings=settings,

@@ -11,7 +11,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 import pytest
-from involute.engine import InvoluteError
+from involute.engine import InvoluteError, Settings, vectorize
 from involute.engine.formats.picture_kinds import KINDS, SUFFIXES, why_left_out
 from involute.engine.scan import page_count
 from involute.engine.scan.image_file import read_image
@@ -247,6 +247,14 @@ def overlapping(directories: int, entries: int) -> bytes:
     return bytes(out)
 
 
+def lying_jpeg() -> bytes:
+    """Says that it has 20,000 px a side."""
+    data = bytearray(encoded(".jpg", GRAY))
+    at = data.find(b"\xff\xc0")
+    data[at + 5 : at + 9] = struct.pack(">HH", 20_000, 20_000)
+    return bytes(data)
+
+
 @pytest.mark.parametrize(
     "data",
     [
@@ -257,6 +265,7 @@ def overlapping(directories: int, entries: int) -> bytes:
         overlapping(300, 60_000),  # hung
         tiff(DEEP, t256=2**31, t257=2**31),
         tiff(DEEP, t322=0, t323=0, t324=8),
+        lying_jpeg(),
         b"GIF89a" + struct.pack("<HH", 20_000, 20_000) + encoded(".gif", COLOR)[10:],
         tga(GRAY, 11, 0, b"\x81\0")[:12] + struct.pack("<HH", 65535, 65535) + b"\x08\0\x81\0",
     ],
@@ -275,6 +284,12 @@ def test_a_named_pipe_is_not_waited_for(tmp_path):
     for read in (read_image, page_count):
         with pytest.raises(InvoluteError, match="no file"):
             read(tmp_path / "pipe.png")
-    for name in ("", "a\0b", "x" * 5000, "\udcff.png"):
+    for name in ("", "a\0b", "x" * 5000, "\udcff.png", 3, [[0, 1]]):
         with pytest.raises(InvoluteError):
             read_image(name)
+
+
+@pytest.mark.parametrize("shape", [(16, 20_000), (20_000, 16), (16, 16)])
+def test_long_strips_of_paper_are_traced(shape):
+    blank = vectorize(np.full(shape, 255, np.uint8), Settings(provider="classical"))
+    assert blank.strokes == ()
