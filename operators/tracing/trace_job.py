@@ -21,6 +21,7 @@ STAGES = {
     "graph": "Finding the junctions",
     "routing": "Routing the junctions",
     "strokes": "Drawing the strokes",
+    "check": "Comparing with the ink",
 }
 
 

@@ -51,6 +51,7 @@ TEXTS = {
     "Finding the junctions": "Kreuzungen werden gesucht",
     "Routing the junctions": "Kreuzungen werden verbunden",
     "Drawing the strokes": "Striche werden gezeichnet",
+    "Comparing with the ink": "Vergleich mit der Tinte",
     "{done} of {count} frames": "{done} von {count} Bildern",
     "Result": "Ergebnis",
     "{strokes:,} strokes, {solids:,} solids, {seconds:.1f} s": (
@@ -135,6 +136,37 @@ TEXTS = {
     "Purple": "Violett",
     "Pink": "Rosa",
     "Gray": "Grau",
+    "Solid Width": "Flächenbreite",
+    "Leave Out Screentone": "Rasterfolie weglassen",
+    "Don't trace areas of evenly set dots, such as the tones of a comic": (
+        "Flächen aus gleichmäßig gesetzten Punkten nicht nachziehen, etwa die Töne eines Comics"
+    ),
+    "Leave Out Surroundings": "Umgebung weglassen",
+    "Don't trace what lies beyond the sheet in a photograph: cloth, a desk, a finger": (
+        "Was auf einem Foto neben dem Blatt liegt, nicht nachziehen: Stoff, Tisch, ein Finger"
+    ),
+    "Lines wider than this, in pixels of the picture, are solid areas; 0 finds out from the pen": (
+        "Linien, die breiter sind (in Bildpunkten), sind Flächen; 0 ermittelt es aus der Feder"
+    ),
+    "Keep Dots": "Punkte behalten",
+    "Keep dots of full ink about as wide as the pen, which are no specks": (
+        "Satte Punkte behalten, die etwa so breit wie die Feder und damit keine Flecken sind"
+    ),
+    "Opacity": "Deckkraft",
+    "How opaque the strokes are": "Wie stark die Striche decken",
+    "Solid": "Deckend",
+    "Solid for ink, as drawn for pencil": "Deckend bei Tinte, wie gezeichnet bei Bleistift",
+    "Every stroke is opaque": "Jeder Strich deckt",
+    "As Drawn": "Wie gezeichnet",
+    "As strong as the line on the paper": "So kräftig wie die Linie auf dem Papier",
+    "Width Scale": "Breitenfaktor",
+    "Make the strokes this many times as wide as the lines on the paper": (
+        "Die Striche so viel mal so breit machen wie die Linien auf dem Papier"
+    ),
+    "Even Width": "Gleichmäßige Breite",
+    "Give each stroke one width all along, that of its line on average": (
+        "Jedem Strich eine einzige Breite geben, die mittlere seiner Linie"
+    ),
     "Leave Out Marks": "Marken weglassen",
     "Don't trace scan borders, punched holes and registration marks": (
         "Scanränder, Lochungen und Passmarken nicht nachziehen"
