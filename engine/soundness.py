@@ -86,6 +86,9 @@ def check_graph(graph: PlanarGraph) -> None:
         if values is not None:
             _table(values, kind, shape, f"the {name} of the branches")
             _within(values, _THICKEST, f"the {name} of the branches")
+    if graph.clues is not None:  # of a corner that the artist made there are none
+        _need(graph.clues.ndim == 2, "the clues of the corners are not a table of the right size")
+        _table(graph.clues, "f", (len(graph.corners), None), "the clues of the corners")
     if graph.widths is not None:
         _need((graph.widths >= 0).all(), "the widths of the branches are below zero")
 
@@ -96,23 +99,35 @@ def check_routing(graph: PlanarGraph, routing: Routing) -> None:
     Raises:
         UnsoundError: says what is wrong first.
     """
-    halves = 2 * graph.branch_count
-    partner, at = routing.partner, graph.half_vertex
-    _table(partner, "i", (halves,), "the partners of the half-branches")
-    _numbered(partner, halves, "the partners of the half-branches")
-    _need((partner[partner] == np.arange(halves)).all(), "its routing is no involution")
-    _need((at[partner] == at).all(), "its routing joins what does not meet")
+    halves, at = 2 * graph.branch_count, graph.half_vertex
+    check_involution(graph, routing.partner)
     _table(routing.pairs, "i", (None, 2), "the pairs of half-branches")
     _numbered(routing.pairs, halves, "the pairs of half-branches")
     a, b = routing.pairs.T
     _need((at[a] == at[b]).all(), "a pair of half-branches does not meet")
     _table(routing.pair_score, "f", (len(routing.pairs),), "the scores of the pairs")
     _need(not np.isnan(routing.pair_score).any(), "the scores of the pairs are no numbers")
-    junctions = graph.junctions
-    _table(routing.locked, "b", (len(junctions),), "which junctions are locked")
-    _need(len(routing.alternatives) == len(junctions), "the alternatives don't fit the junctions")
+    places = graph.places
+    _table(routing.locked, "b", (len(places),), "which junctions are locked")
+    _need(len(routing.alternatives) == len(places), "the alternatives don't fit the junctions")
     for number, ways in enumerate(routing.alternatives):
-        _check_ways(ways, set(graph.halves_of(junctions[number]).tolist()), f"junction {number}")
+        _check_ways(ways, set(graph.halves_of(places[number]).tolist()), f"junction {number}")
+
+
+def check_involution(graph: PlanarGraph, partner: Array) -> None:
+    """Each half-branch ends, or continues in one that continues in it, at the same vertex.
+
+    Args:
+        partner: (2B,) int32.
+
+    Raises:
+        UnsoundError: it does not; to walk along it might never end.
+    """
+    halves, at = 2 * graph.branch_count, graph.half_vertex
+    _table(partner, "i", (halves,), "the partners of the half-branches")
+    _numbered(partner, halves, "the partners of the half-branches")
+    _need((partner[partner] == np.arange(halves)).all(), "its routing is no involution")
+    _need((at[partner] == at).all(), "its routing joins what does not meet")
 
 
 def _check_ways(ways: tuple[Alternative, ...], halves: set[int], where: str) -> None:

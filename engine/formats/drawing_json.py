@@ -13,7 +13,7 @@ import json
 import math
 import zlib
 from collections.abc import Sequence
-from dataclasses import fields
+from dataclasses import fields, replace
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -22,8 +22,10 @@ import numpy as np
 
 from ..drawing import Drawing
 from ..errors import InvoluteError
+from ..fidelity import Fidelity
+from ..routing import with_corners
 from ..settings import Settings
-from ..soundness import UnsoundError, check_drawing
+from ..soundness import UnsoundError, check_drawing, check_graph
 from ..values import Alternative, Array, PlanarGraph, Routing, Stroke
 from .whole_file import write_text
 
@@ -76,6 +78,9 @@ def dumps(drawing: Drawing) -> str:
             "ring_offsets": _packed(_offsets([len(fill) for fill in drawing.fills])),
         },
         "region_colors": _packed(drawing.region_colors),
+        "fidelity": drawing.fidelity and drawing.fidelity.as_dict(),
+        "notes": list(drawing.notes),
+        "warnings": list(drawing.warnings),
     }
     return json.dumps(document, separators=(",", ":"))
 
@@ -94,6 +99,8 @@ def read(text: str, name: str = "The file") -> Drawing:
         document = json.loads(text, parse_constant=_no_constant)
         _check_head(document, name)
         drawing = _drawing(document)
+        check_graph(drawing.graph)
+        drawing = replace(drawing, routing=with_corners(drawing.routing, drawing.graph))
         check_drawing(drawing)
         return drawing
     except UnsoundError as error:
@@ -137,11 +144,6 @@ def _check_head(document: Any, name: str) -> None:
 def _drawing(document: dict[str, Any]) -> Drawing:
     known = {f.name for f in fields(Settings)}
     unpack = _Unpacker()
-    routing = dict(document["routing"])
-    alternatives = tuple(
-        tuple(Alternative(tuple((a, b) for a, b in pairs), p) for pairs, p in ways)
-        for ways in routing.pop("alternatives")
-    )
     width, height = document["size"]
     if type(width) is not int or type(height) is not int:
         raise UnsoundError("its size is no number of pixels")
@@ -149,6 +151,11 @@ def _drawing(document: dict[str, Any]) -> Drawing:
         settings = Settings(**{k: v for k, v in document["settings"].items() if k in known})
     except InvoluteError as error:
         raise UnsoundError(str(error).rstrip(".")) from None
+    routing = dict(document["routing"])
+    alternatives = tuple(
+        tuple(Alternative(tuple((a, b) for a, b in pairs), p) for pairs, p in ways)
+        for ways in routing.pop("alternatives")
+    )
     return Drawing(
         graph=PlanarGraph(**{k: unpack(v) for k, v in document["graph"].items()}),
         routing=Routing(**{k: unpack(v) for k, v in routing.items()}, alternatives=alternatives),
@@ -159,6 +166,9 @@ def _drawing(document: dict[str, Any]) -> Drawing:
         seconds=dict(document["seconds"]),
         scale=float(document.get("scale", 1.0)),
         region_colors=unpack(document.get("region_colors")),
+        fidelity=Fidelity.from_dict(document["fidelity"]) if document.get("fidelity") else None,
+        notes=tuple(map(str, document.get("notes", ()))),
+        warnings=tuple(map(str, document.get("warnings", ()))),
     )
 
 

@@ -15,6 +15,7 @@ import numpy as np
 
 from ..drawing import Drawing
 from ..errors import InvoluteError
+from ..routing import with_corners
 from ..settings import Settings
 from ..soundness import UnsoundError, check_drawing
 from ..values import Array, PlanarGraph, Routing, Stroke
@@ -263,4 +264,5 @@ def _unconnected(strokes: tuple[Stroke, ...]) -> tuple[PlanarGraph, Routing]:
     loop = np.flatnonzero(graph.degrees[graph.half_vertex] == 2)
     partner[loop] = loop ^ 1
     no_pairs = np.zeros((0, 2), np.int32)
-    return graph, Routing(partner, no_pairs, np.zeros(0, np.float32), (), np.zeros(0, bool))
+    routing = Routing(partner, no_pairs, np.zeros(0, np.float32), (), np.zeros(0, bool))
+    return graph, with_corners(routing, graph)
