@@ -21,6 +21,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from os import PathLike
 from xml.etree import ElementTree
 
@@ -352,11 +353,7 @@ class _Segments:
     """All straight pieces of the strokes, findable by place."""
 
     def __init__(self, strokes: Strokes) -> None:
-        lines = [
-            # Nearly straight runs are one segment: far fewer pairs to test, nothing moves.
-            shapely.get_coordinates(shapely.LineString(line).simplify(0.02))
-            for line in strokes.polylines
-        ]
+        lines = [_straightened(line) for line in strokes.polylines]
         arcs = [_arc_length(line) for line in lines]
         self.strokes = strokes
         self.stroke = np.repeat(np.arange(len(lines)), [len(line) - 1 for line in lines])
@@ -403,6 +400,17 @@ class _Segments:
         order = np.lexsort((distance, self.stroke[seg], tip))
         key = (tip * (len(strokes) + 1) + self.stroke[seg])[order]
         return foot[order][np.unique(key, return_index=True)[1]]
+
+
+def _straightened(line: Array) -> Array:
+    """A polyline with its nearly straight runs as one segment: far fewer pairs to test, nothing
+    moves. Where it turns back, it stays as it is: over there and back is no straight run."""
+    step = np.diff(line, axis=0)
+    back = 1 + np.flatnonzero((step[1:] * step[:-1]).sum(1) < 0)
+    cuts = [0, *back.tolist(), len(line) - 1]
+    runs = [shapely.LineString(line[a : b + 1]).simplify(0.02) for a, b in pairwise(cuts)]
+    corners = [shapely.get_coordinates(run) for run in runs]
+    return np.concatenate([corners[0], *(run[1:] for run in corners[1:])])
 
 
 def merged(points: Array, radius: float = _MERGE) -> Array:
