@@ -27,7 +27,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import shapely
-from scipy.sparse import coo_matrix
+from scipy.sparse import coo_matrix, csr_matrix
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
@@ -301,7 +301,7 @@ def chamfer(pred: Strokes, true: Strokes) -> float:
     return float(there + back) / 2
 
 
-def _coverage(strokes: Strokes, others: Strokes) -> Array:
+def _coverage(strokes: Strokes, others: Strokes) -> csr_matrix:
     """(S, T): the share of each stroke that runs within `_NEAR` of each other one (sparse)."""
     shape = (len(strokes), len(others))
     if strokes.tree is None or others.tree is None:
@@ -461,6 +461,7 @@ class _Branches:
         self.degree = np.bincount(self.junction[first], minlength=len(junctions))
 
     def _find(self, strokes: Strokes, junctions: Array) -> None:
+        assert strokes.tree is not None
         near = strokes.tree.query_ball_point(junctions, _HOLD)
         junction = np.repeat(np.arange(len(junctions)), [len(hits) for hits in near])
         sample = np.concatenate([np.asarray(hits, int) for hits in near])

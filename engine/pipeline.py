@@ -11,8 +11,6 @@ from collections.abc import Callable
 from os import PathLike
 from time import perf_counter
 
-import numpy as np
-
 from .centerline import provider_for
 from .drawing import Drawing
 from .errors import Cancelled
@@ -24,9 +22,10 @@ from .routing import route
 from .scan import read_scan
 from .scan.registration import set_aside
 from .settings import Settings
+from .values import Array
 
 Progress = Callable[[str, float], None]
-Source = str | PathLike[str] | np.ndarray
+Source = str | PathLike[str] | Array
 
 # What each stage takes of the whole time, for a progress bar that moves evenly.
 _SHARES = {

@@ -348,7 +348,7 @@ def draw(
         turn = rng.uniform(0, np.pi)
         across = np.abs(samples.tangent @ (-np.sin(turn), np.cos(turn)))
         half *= np.hypot(across, 1 - medium.nib) * rng.uniform(0.9, 1.2)
-    left = 1.0
+    left: Array | float = 1.0
     if rng.random() < medium.skip:
         left, thinner = _skips(rng, samples)
         half = half * thinner

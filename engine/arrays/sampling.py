@@ -21,7 +21,7 @@ def sample(image: Array, points: Array, beyond: int = cv2.BORDER_REPLICATE) -> A
     if count == 0:
         return np.zeros((*shape, *image.shape[2:]), image.dtype)
     rows = max(1, -(-count // _COLUMNS))
-    padded = np.zeros((rows * _COLUMNS, 2), np.float32) if rows > 1 else flat
+    padded: Array = np.zeros((rows * _COLUMNS, 2), np.float32) if rows > 1 else flat
     padded[:count] = flat
     values = cv2.remap(
         np.ascontiguousarray(image),

@@ -56,6 +56,8 @@ def _areas(dark: Array, wide: float, widest: float) -> Array:
     if not seed.any():
         return seed.astype(np.uint8)
     core = (depth > wide) & (_distance_to(seed) < _REACH * 2 * widest)
+    away: Array
+    owner: Array
     away, owner = cv2.distanceTransformWithLabels(
         (~core).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5, labelType=cv2.DIST_LABEL_CCOMP
     )
@@ -82,13 +84,14 @@ def _outlines(area: Array, soft: Array) -> list[Fill]:
     rings = _on_the_edge([c.reshape(-1, 2) for c in contours], soft)
     fills: list[Fill] = []
     for index, (_, _, child, parent) in enumerate(tree[0].tolist()):
-        if parent >= 0 or rings[index] is None:
+        outer = rings[index]
+        if parent >= 0 or outer is None:
             continue
         holes = []
         while child >= 0:
             holes.append(rings[child])
             child = tree[0][child][0]
-        fills.append((rings[index], *(hole for hole in holes if hole is not None)))
+        fills.append((outer, *(hole for hole in holes if hole is not None)))
     return fills
 
 
@@ -113,7 +116,7 @@ def _smooth(ring: Array) -> Array | None:
     """A ring without pixel steps, in few points; None when nothing is left of it."""
     if len(ring) < 8:
         return None
-    weights = np.float32([1, 4, 6, 4, 1]) / 16
+    weights = np.array([1, 4, 6, 4, 1], np.float32) / 16
     wrapped = np.concatenate([ring[-2:], ring, ring[:2]])
     even = np.stack([np.convolve(axis, weights, "valid") for axis in wrapped.T], 1)
     few = cv2.approxPolyDP(even.astype(np.float32)[:, None], _DETAIL, True)[:, 0]

@@ -11,9 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..values import Alternative, Pair, PlanarGraph, Routing
-
-Array = np.ndarray
+from ..values import Alternative, Array, Pair, PlanarGraph, Routing
 
 NEAR = 1.0  # pen widths; so near a vertex, it is meant
 
