@@ -36,6 +36,11 @@ def _about_drawing(drawing: Drawing) -> Iterator[str]:
     yield f"widths     {middle:.1f} px (5 % under {low:.1f}, 5 % over {high:.1f})"
     yield f"inks       {len(colors)}"
     yield f"fills      {len(drawing.fills)}"
+    if drawing.fidelity:
+        lost, invented = drawing.fidelity.lost, drawing.fidelity.invented
+        yield f"fidelity   {lost:.2%} of the ink lost, {invented:.2%} of the strokes off the ink"
+    for sentence in (*drawing.notes, *drawing.warnings):
+        yield f"           {sentence}"
     yield f"branches   {drawing.graph.branch_count}"
     yield f"junctions  {len(drawing.junctions)}, {len(drawing.doubtful)} doubtful"
     if not drawing.junctions:

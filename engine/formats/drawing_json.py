@@ -22,6 +22,7 @@ import numpy as np
 
 from ..drawing import Drawing
 from ..errors import InvoluteError
+from ..fidelity import Fidelity
 from ..routing import with_corners
 from ..settings import Settings
 from ..soundness import UnsoundError, check_drawing, check_graph
@@ -77,6 +78,9 @@ def dumps(drawing: Drawing) -> str:
             "ring_offsets": _packed(_offsets([len(fill) for fill in drawing.fills])),
         },
         "region_colors": _packed(drawing.region_colors),
+        "fidelity": drawing.fidelity and drawing.fidelity.as_dict(),
+        "notes": list(drawing.notes),
+        "warnings": list(drawing.warnings),
     }
     return json.dumps(document, separators=(",", ":"))
 
@@ -166,6 +170,9 @@ def _drawing(document: dict[str, Any]) -> Drawing:
         seconds=dict(document["seconds"]),
         scale=float(document.get("scale", 1.0)),
         region_colors=unpack(document.get("region_colors")),
+        fidelity=Fidelity.from_dict(document["fidelity"]) if document.get("fidelity") else None,
+        notes=tuple(map(str, document.get("notes", ()))),
+        warnings=tuple(map(str, document.get("warnings", ()))),
     )
 
 

@@ -40,7 +40,7 @@ def pencil(graph: PlanarGraph, chosen: Array, length: Array) -> tuple[Array, flo
     split = split_strengths(strength[chosen], length[chosen] + 1e-6)
     if split is None:
         return found, 1.0
-    return chosen & (strength <= split.level), split.faint / split.strong
+    return chosen & (strength <= split.level), split.low / split.high
 
 
 def neutral(graph: PlanarGraph) -> Array:

@@ -39,10 +39,12 @@ class Marks:
         order that depends only on the page: K = 3 for a peg bar, 2 to 4 for a file punch, 0 when
         there are none.
     mask: (H, W) bool, all that must not be traced.
+    names: what it is, for people.
     """
 
     anchors: Array
     mask: Array
+    names: tuple[str, ...] = ()
 
 
 def set_aside(scan: Scan, settings: Settings) -> Scan:
@@ -56,7 +58,9 @@ def set_aside(scan: Scan, settings: Settings) -> Scan:
         return replace(scan, aligned=not len(wanted))
     marks = find_marks(scan.ink, scan.pen_width)
     if marks.mask.any():
-        scan = replace(scan, ink=np.where(marks.mask, np.float32(0), scan.ink))
+        note = f"Left out as no part of the drawing: {', '.join(marks.names)}."
+        ink = np.where(marks.mask, np.float32(0), scan.ink)
+        scan = replace(scan, ink=ink, notes=(*scan.notes, note))
     if not len(wanted):
         return scan
     if len(wanted) != len(marks.anchors):
@@ -107,17 +111,20 @@ def find_marks(ink: Array, pen_width: float) -> Marks:
         pen_width = max(1.0, pen_width / shrink)
     dark = (ink > _DARK).astype(np.uint8)
     mask = _borders(dark, pen_width)
+    names = ["dark borders of the scan"] if mask.any() else []
     dark[mask] = 0
     blobs = _blobs(dark, pen_width)
     holes = _peg_holes(blobs, ink.shape)
     crosses = _crosses(blobs, ink.shape)
+    names += [f"{len(holes)} punched holes"] if holes else []
+    names += [f"{len(crosses)} registration marks"] if crosses else []
     for blob in (*holes, *crosses):
         _stamp(mask, blob, pen_width)
     if shrink > 1:
         whole = cv2.resize(mask.view(np.uint8), (width, height), interpolation=cv2.INTER_NEAREST)
         mask = whole.view(bool)
     anchors = np.array([blob.middle for blob in holes or crosses], np.float32).reshape(-1, 2)
-    return Marks(anchors * np.float32(shrink), mask)
+    return Marks(anchors * np.float32(shrink), mask, tuple(names))
 
 
 def rigid(source: Array, target: Array) -> Array:
