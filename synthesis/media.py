@@ -364,7 +364,7 @@ def draw(
     tooth = noise(rng, str(rng.choice(medium.tooth)), size)
     edge_noise = noise(rng, str(rng.choice(["grain", "tooth", "rough"])), size)
     flow = density * (1 + fade * press) * left
-    ink = np.zeros((size, size), np.float32)
+    ink: Array = np.zeros((size, size), np.float32)
     for layer in layers:
         ids = np.flatnonzero(layer)
         if not len(ids):

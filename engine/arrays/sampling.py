@@ -23,7 +23,7 @@ def sample(image: Array, points: Array, beyond: int = cv2.BORDER_REPLICATE) -> A
     rows = max(1, -(-count // _COLUMNS))
     padded: Array = np.zeros((rows * _COLUMNS, 2), np.float32) if rows > 1 else flat
     padded[:count] = flat
-    values = cv2.remap(
+    values = cv2.remap(  # type: ignore[call-overload]  # one map is enough
         np.ascontiguousarray(image),
         padded.reshape(rows, -1, 2),
         None,

@@ -69,8 +69,6 @@ def _areas(dark: Array, wide: float, widest: float, stroke: float) -> Array:
     if not seed.any():
         return seed.astype(np.uint8)
     core = (depth > wide) & (_distance_to(seed) < _REACH * 2 * widest)
-    away: Array
-    owner: Array
     away, owner = cv2.distanceTransformWithLabels(
         (~core).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5, labelType=cv2.DIST_LABEL_CCOMP
     )
@@ -78,7 +76,7 @@ def _areas(dark: Array, wide: float, widest: float, stroke: float) -> Array:
     count = int(owner.max()) + 1
     size = np.bincount(owner[painted], minlength=count)
     deepest = np.zeros(count, np.float32)
-    np.maximum.at(deepest, owner[core], depth[core])
+    np.maximum.at(deepest, owner[core].astype(np.int64), depth[core])
     middle = core & (depth >= cv2.dilate(depth, np.ones((3, 3), np.uint8)))
     crest = np.bincount(owner[middle], minlength=count)
     mean_depth = np.bincount(owner[middle], depth[middle], minlength=count) / np.maximum(crest, 1)
