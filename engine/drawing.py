@@ -145,6 +145,7 @@ class Drawing:
 
         if self.graph.branch_count == 0:
             return ()
+        assert self.graph.widths is not None, "a drawing's graph is measured"
         return closed_regions(self.graph, 4.0 * float(np.median(self.graph.widths)) ** 2)
 
     @property
