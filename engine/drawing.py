@@ -24,6 +24,7 @@ from .values import Array, Junction, Pair, PlanarGraph, Routing, Scan, Stroke
 
 Fill = tuple[Array, ...]
 
+STROKE_SETTINGS = ("smoothing", "curve", "tolerance")  # change nothing but the last stage
 DOUBTFUL = 0.3  # doubt from which on a junction is worth a look
 
 
@@ -255,6 +256,18 @@ class Drawing:
         fixed = {place.index: place.pairs for place in self._places if place.locked}
         routing = route(_scaled(self.graph, 1 / self.scale), self.settings, fixed)
         return replace(self._with_partner(routing.partner), routing=routing)
+
+    def restroked(self, settings: Settings) -> Drawing:
+        """The same lines and decisions with the strokes made anew.
+
+        Args:
+            settings: may differ in `STROKE_SETTINGS` only.
+        """
+        page = Page.of(self.graph, settings)
+        strokes = tuple(build(page, walk(self.routing.partner)))
+        drawing = replace(self, strokes=strokes, settings=settings)
+        vars(drawing)["_page"] = page
+        return drawing
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write the drawing; the suffix says how (.json keeps everything)."""

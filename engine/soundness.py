@@ -99,12 +99,8 @@ def check_routing(graph: PlanarGraph, routing: Routing) -> None:
     Raises:
         UnsoundError: says what is wrong first.
     """
-    halves = 2 * graph.branch_count
-    partner, at = routing.partner, graph.half_vertex
-    _table(partner, "i", (halves,), "the partners of the half-branches")
-    _numbered(partner, halves, "the partners of the half-branches")
-    _need((partner[partner] == np.arange(halves)).all(), "its routing is no involution")
-    _need((at[partner] == at).all(), "its routing joins what does not meet")
+    halves, at = 2 * graph.branch_count, graph.half_vertex
+    check_involution(graph, routing.partner)
     _table(routing.pairs, "i", (None, 2), "the pairs of half-branches")
     _numbered(routing.pairs, halves, "the pairs of half-branches")
     a, b = routing.pairs.T
@@ -116,6 +112,22 @@ def check_routing(graph: PlanarGraph, routing: Routing) -> None:
     _need(len(routing.alternatives) == len(places), "the alternatives don't fit the junctions")
     for number, ways in enumerate(routing.alternatives):
         _check_ways(ways, set(graph.halves_of(places[number]).tolist()), f"junction {number}")
+
+
+def check_involution(graph: PlanarGraph, partner: Array) -> None:
+    """Each half-branch ends, or continues in one that continues in it, at the same vertex.
+
+    Args:
+        partner: (2B,) int32.
+
+    Raises:
+        UnsoundError: it does not; to walk along it might never end.
+    """
+    halves, at = 2 * graph.branch_count, graph.half_vertex
+    _table(partner, "i", (halves,), "the partners of the half-branches")
+    _numbered(partner, halves, "the partners of the half-branches")
+    _need((partner[partner] == np.arange(halves)).all(), "its routing is no involution")
+    _need((at[partner] == at).all(), "its routing joins what does not meet")
 
 
 def _check_ways(ways: tuple[Alternative, ...], halves: set[int], where: str) -> None:
