@@ -266,9 +266,7 @@ class Drawing:
         """
         page = Page.of(self.graph, settings)
         strokes = tuple(build(page, walk(self.routing.partner)))
-        drawing = replace(self, strokes=strokes, settings=settings)
-        vars(drawing)["_page"] = page
-        return drawing
+        return replace(self, strokes=strokes, settings=settings, page=page)
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write the drawing; the suffix says how (.json keeps everything)."""
