@@ -48,8 +48,8 @@ def open_tips(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> Pla
     arms = three[three != stem[:, None]].reshape(-1, 2)
     half = read_courses(graph, evidence)
     fits = Continuations(half, evidence.value)
-    along = np.maximum(*(fits.of(np.stack([arms[:, k], stem], -1)).cost for k in (0, 1)))
-    across = fits.of(arms).cost
+    along = np.maximum(*(fits.cost(np.stack([arms[:, k], stem], -1)) for k in (0, 1)))
+    across = fits.cost(arms)
     # How long two lines overlap depends on how fast they part.
     parting = np.hypot(
         *(half.points[arms, 0] - graph.vertices[vertex[stem]][:, None]).transpose(2, 0, 1)
