@@ -18,7 +18,6 @@ ROOMS = (*SHIPPED_ROOMS, "synthesis", "training", "benchmarks")
 # Longer than a screen still; whoever shortens one takes it off this list.
 LONG = {
     "command.farm.write_job",
-    "engine.graph.clusters._best_mergers",
     "engine.graph.ends.place_ends",
     "synthesis.true_graph.dissolve",
 }
