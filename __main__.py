@@ -34,11 +34,16 @@ def _evaluate(prediction: Path, truth: Path) -> Mapping[str, float]:
         raise InvoluteError(
             f"Evaluating needs a checkout of Involute and its extra 'bench' ({error})."
         ) from error
+    from .engine.formats import read_text
+
     try:
+        for path in (prediction, truth):
+            if "<!ENTITY" in read_text(path):  # they can blow up a small file
+                raise InvoluteError(f"{path.name} declares entities; save it without them.")
         strokes, true_strokes = metrics.read_svg(prediction), metrics.read_svg(truth)
-    except OSError as error:
-        raise InvoluteError(f"Can't read {error.filename}: {error.strerror}.") from error
-    except (ValueError, SyntaxError) as error:
+    except (ArithmeticError, LookupError, RecursionError, SyntaxError, TypeError) as error:
+        raise InvoluteError(f"Can't compare them: {str(error).rstrip('.')}.") from error
+    except ValueError as error:
         raise InvoluteError(f"Can't compare them: {str(error).rstrip('.')}.") from error
     return metrics.summarize([metrics.evaluate(strokes, true_strokes)])
 

@@ -39,6 +39,7 @@ _JUDGED = ("crossings", "branching", "precision", "f1")  # in per cent of what t
 
 
 def main(argv: Sequence[str] | None = None) -> None:
+    """The command line; its figures are the table that it writes."""
     parser = argparse.ArgumentParser(
         prog="python -m benchmarks.graph_limits", description=__doc__.split("\n")[0]
     )

@@ -24,7 +24,7 @@ from pathlib import Path
 
 import cv2
 import numpy as np
-from involute.command.batch import RECEIPTS
+from involute.command.receipts import FOLDER as RECEIPTS
 from involute.engine import Drawing, InvoluteError
 
 from .run_record import Figures
@@ -77,7 +77,7 @@ def main(argv: Sequence[str] | None = None) -> Figures:
     first = trace(images, broken, options.jobs, stop_at=options.count // 2)
     time.sleep(1.0)
     done = {p.name: p.stat().st_mtime_ns for p in broken.glob("*.svg")}
-    receipts = {p.stem for p in (broken / RECEIPTS).glob("*.json")}
+    receipts = {f"{p.stem}.svg" for p in (broken / RECEIPTS).glob("*.json")}
     unreadable = [name for name in done if not _is_whole(broken / name)]
     print(f"killed after {first.seconds:.0f} s: {len(done)} drawings, {len(receipts)} receipts")
     second = trace(images, broken, options.jobs)
@@ -170,7 +170,9 @@ def _page(drawings: list[list[Array]], rng: np.random.Generator) -> Array:
     ink = np.zeros((SIZE, SIZE), np.uint8)
     width = int(rng.integers(2, 8))
     for points in strokes:
-        cv2.polylines(ink, [np.int32(np.round(points * 16))], False, 255, width, cv2.LINE_AA, 4)
+        cv2.polylines(
+            ink, [np.round(points * 16).astype(np.int32)], False, 255, width, cv2.LINE_AA, 4
+        )
     share = cv2.GaussianBlur(ink, (0, 0), rng.uniform(0.5, 1.0))[..., None] / 255
     if rng.random() < 0.3:  # the grain of pencil and chalk
         grain = cv2.GaussianBlur(rng.normal(0, 1, ink.shape).astype(np.float32), (0, 0), 0.8)

@@ -20,6 +20,7 @@ from dataclasses import replace
 from pathlib import Path
 from statistics import median
 from types import ModuleType, SimpleNamespace
+from typing import Any
 
 import bpy
 import gpu
@@ -37,8 +38,11 @@ def main(archive: str, scan: str, result: str = "") -> None:
     _show(bpy.context.active_object)
     clock = _Clock()
     view = bpy.context.window_manager.involute_view
-    shown = _module("operators.view_state").shown_in(bpy.context)
-    rows = {"junctions": len(shown.table), "strokes": len(shown.trace.drawing.strokes)}
+    shown = _module("operators.view.view_state").shown_in(bpy.context)
+    rows: dict[str, Any] = {
+        "junctions": len(shown.table),
+        "strokes": len(shown.trace.drawing.strokes),
+    }
     view.show_overlay = False
     rows["without the overlay"] = {"redraw": _redraws()}
     view.show_overlay = True
@@ -88,7 +92,7 @@ class _Clock:
     def __init__(self) -> None:
         self.reset()
         self._again = ""
-        overlay = _module("ui.overlay")
+        overlay = _module("ui.overlay.overlay")
         overlay.unregister()
         for draw, when in (
             (overlay.draw_rings_and_routes, "POST_VIEW"),
@@ -98,7 +102,7 @@ class _Clock:
                 self._twice(overlay, draw), (), "WINDOW", when
             )
             overlay._handles.append(handle)
-        for module in (overlay, _module("ui.cards_drawing")):
+        for module in (overlay, _module("ui.overlay.cards")):
             module.kept = self._with_timed_batches(module.kept)
 
     def reset(self) -> None:
@@ -133,7 +137,7 @@ class _Clock:
         return run
 
     def _with_timed_batches(self, kept: Callable) -> Callable:
-        def timed(made: object) -> object:
+        def timed(made: Any) -> Any:
             if isinstance(made, gpu.types.GPUBatch):
                 return SimpleNamespace(draw=self._timed("opengl", made.draw))
             if isinstance(made, (list, tuple)):

@@ -61,14 +61,22 @@ class ProgressDisplay:
             return
         if self._tells:
             self._line(f"{name}: {figures(outcome)}{_where(outputs)}")
-            if self._stages and outcome.report.get("seconds"):
-                self._line(f"    {_seconds(outcome.report['seconds'])}")
-        if not outcome.report.get("strokes", 1):
+            if self._stages:
+                self._details(outcome.report)
+        if not outcome.report.get("strokes", 1) and not outcome.report.get("warnings"):
             self.warning(f"{name}: warning: there are no lines; the drawing is empty.")
+        for sentence in outcome.report.get("warnings", ()):
+            self.warning(f"{name}: warning: {sentence}")
         for output in outcome.kept:
             self.warning(
                 f"{name}: warning: {output} was edited since and stays; --overwrite replaces it."
             )
+
+    def _details(self, report: Mapping[str, Any]) -> None:
+        for sentence in report.get("notes", ()):
+            self._line(f"    {sentence}")
+        if report.get("seconds"):
+            self._line(f"    {_seconds(report['seconds'])}")
 
     def warning(self, sentence: str) -> None:
         """Say something that is worth knowing, unless nothing is to be heard."""
@@ -92,16 +100,17 @@ class ProgressDisplay:
 def figures(outcome: Outcome) -> str:
     """What is in a drawing, in a few words."""
     report = outcome.report
-    said = [f"{report.get('strokes', 0):,} strokes", _many(report.get("doubtful", 0))]
-    if (share := report.get("ink")) is not None:
-        said.append(f"{share:.1%} of the ink".replace("%", " %"))
+    said = [_many(report.get("strokes", 0), "stroke")]
+    said.append(_many(report.get("doubtful", 0), "doubtful junction"))
+    if (lost := report.get("lost")) is not None:
+        said.append(f"{100 * (1 - lost):.1f} % of the ink")
     if outcome.resumed:
         said.append("done before")
     return ", ".join(said)
 
 
-def _many(doubtful: int) -> str:
-    return f"{doubtful:,} doubtful junction{'' if doubtful == 1 else 's'}"
+def _many(count: int, what: str) -> str:
+    return f"{count:,} {what}{'' if count == 1 else 's'}"
 
 
 def _where(outputs: Sequence[Path]) -> str:

@@ -16,9 +16,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from .values import Pair
-
-Array = np.ndarray
+from .values import Array, Pair
 
 MAX_LISTED_DEGREE = 10  # 9,496 involutions
 LARGEST_EXACT = 8  # 764 involutions; half-branches of a cluster that `least_cost` solves exactly

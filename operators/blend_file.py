@@ -116,6 +116,7 @@ def _save(path: str | PathLike[str]) -> None:
     from ..engine import InvoluteError
 
     target = Path(fspath(path)).absolute()
+    target.unlink(missing_ok=True)  # of a file that is there Blender would keep a copy beside it
     try:
         with _quiet():
             bpy.ops.wm.save_as_mainfile(

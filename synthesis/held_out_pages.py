@@ -17,6 +17,7 @@ import numpy as np
 
 from .composed_pages import SOURCES, Library
 from .media import MEDIA, draw, line_spacing, sample
+from .pen_lifts import KINDS, Habit, lifted
 from .sheet_of_paper import paper, scan, shadow
 from .true_graph import single_lines
 
@@ -42,6 +43,9 @@ def main() -> None:
     parser.add_argument("--pages", type=int, default=48)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--only", nargs="+", choices=list(SOURCES), help="these sets alone")
+    parser.add_argument(
+        "--habit", default="as drawn", choices=KINDS, help="where the pen is lifted"
+    )
     parser.add_argument("--each", action="store_true", help="every drawing once, the richest first")
     args = parser.parse_args()
     args.out.mkdir(parents=True, exist_ok=True)
@@ -49,11 +53,13 @@ def main() -> None:
     library = Library.load(args.data, held_out=True)
     media = [name for name in _PENS if name in MEDIA]
     names = args.only or [name for name in _SOURCES if name in library.sources]
-    drawings = _richest(library, names) if args.each else _endless(rng, library, args.only)
+    drawings = _richest(library, names) if args.each else endless(rng, library, args.only)
     manifest = []
     for number, strokes in zip(range(args.pages), drawings, strict=False):
         name, medium = f"page_{number:03d}", media[number % len(media)]
-        image, sheet = _drawn(rng, strokes, medium)
+        pen = float(rng.uniform(*_PENS[medium]))
+        strokes = lifted(rng, strokes, Habit.drawn(rng, pen, args.habit))
+        image, sheet = _drawn(rng, strokes, medium, pen)
         cv2.imwrite(str(args.out / f"{name}.jpg"), image, [cv2.IMWRITE_JPEG_QUALITY, 88])
         (args.out / f"{name}.svg").write_text(_svg(strokes, image.shape), "utf-8")
         style = f"{medium}, {sheet}"
@@ -61,7 +67,7 @@ def main() -> None:
     (args.out / "manifest.json").write_text(json.dumps(manifest, indent=1), "utf-8")
 
 
-def _endless(
+def endless(
     rng: np.random.Generator, library: Library, only: Sequence[str] | None = None
 ) -> Iterator[list[Array]]:
     """True strokes that fill a page: one drawing, or several over each other."""
@@ -97,11 +103,13 @@ def _length(strokes: list[Array]) -> float:
     return float(sum(np.hypot(*np.diff(line, axis=0).T).sum() for line in strokes))
 
 
-def _drawn(rng: np.random.Generator, strokes: list[Array], medium: str) -> tuple[Array, str]:
-    """The page as a scanner sees it, (H, W) uint8, and what its paper is."""
+def _drawn(
+    rng: np.random.Generator, strokes: list[Array], medium: str, pen: float
+) -> tuple[Array, str]:
+    """The page as a scanner sees it, (H, W) uint8, and what its paper is; pen: its width, px."""
     width, height = np.ceil(np.max([line.max(0) for line in strokes], 0) + _MARGIN).astype(int)
     samples = sample([line.astype(np.float32) for line in strokes], _SIDE)
-    pen = min(float(rng.uniform(*_PENS[medium])), 0.8 * line_spacing(samples, _SIDE))
+    pen = min(pen, 0.8 * line_spacing(samples, _SIDE))
     ink, _ = draw(rng, samples, MEDIA[medium], pen, _SIDE)
     sheet = str(rng.choice(["white", "paper", "shadow"], p=[0.4, 0.35, 0.25]))
     page = np.ones_like(ink)

@@ -109,7 +109,7 @@ def active_blocks(ink: Array, shift: tuple[int, int] = (0, 0)) -> Array:
     """
     height, width = (side + more for side, more in zip(ink.shape, shift, strict=True))
     rows, columns = -(-height // _CELL), -(-width // _CELL)
-    cells = np.zeros((rows, columns), np.uint8)
+    cells: Array = np.zeros((rows, columns), np.uint8)
     for top in range(0, height, _BAND):
         band = moved(ink, slice(top, min(top + _BAND, height)), slice(0, width), shift)
         seen = cv2.blur(band, (3, 3)) > _INK
@@ -128,7 +128,9 @@ def _cover(active: Array) -> list[tuple[int, int, int, int]]:
     A rectangle is cut in two where that leaves the least to look at, as long as its window is too
     large or cutting is cheaper than not.
     """
-    done, open_ = [], [(0, 0, *active.shape)]
+    height, width = active.shape
+    done: list[tuple[int, int, int, int]] = []
+    open_ = [(0, 0, height, width)]
     while open_:
         box = _trim(active, open_.pop())
         if box is None:

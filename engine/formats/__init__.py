@@ -6,6 +6,7 @@ engine may not import (Blender) declares its format where it is, and hands it to
 
 from __future__ import annotations
 
+import stat
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from importlib import import_module
@@ -17,6 +18,9 @@ from ..errors import InvoluteError
 
 if TYPE_CHECKING:
     from ..drawing import Drawing
+
+
+_LARGEST = 2**29  # bytes of a file; the drawing of a page of 8192 px has some 2**24
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -114,15 +118,28 @@ def load(path: str | PathLike[str]) -> Drawing:
     reader = known.get(path.suffix.lower())
     if reader is None:
         raise InvoluteError(f"{path.name} holds no drawing; choose a {either(known)} file.")
+    return reader(read_text(path), path.name)
+
+
+def read_text(path: Path) -> str:
+    """The text of a file, if it is one and no larger than a drawing can be.
+
+    Raises:
+        InvoluteError: it can't be read.
+    """
     try:
-        text = path.read_text(encoding="utf-8")
+        found = path.stat()
+        if not stat.S_ISREG(found.st_mode):
+            raise InvoluteError(f"{path} is no file; check the path.")
+        if found.st_size > _LARGEST:
+            raise InvoluteError(f"{path.name} is larger than any drawing; trace the picture again.")
+        return path.read_text(encoding="utf-8")
     except FileNotFoundError:
         raise InvoluteError(f"There is no file {path}; check the path.") from None
     except UnicodeDecodeError:
         raise InvoluteError(f"{path.name} is damaged or isn't text; trace it again.") from None
     except OSError as error:
         raise InvoluteError(f"Can't read {path}: {error.strerror or error}.") from None
-    return reader(text, path.name)
 
 
 def either(names: Iterable[str]) -> str:
@@ -131,4 +148,4 @@ def either(names: Iterable[str]) -> str:
     return f"{', '.join(others)} or {last}" if others else last
 
 
-__all__ = ["FORMATS", "Format", "either", "load", "save"]
+__all__ = ["FORMATS", "Format", "either", "load", "read_text", "save"]

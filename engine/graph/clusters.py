@@ -17,12 +17,10 @@ import numpy as np
 
 from ..arrays.ragged import ranges
 from ..involution import least_cost
-from ..values import PlanarGraph
+from ..values import Array, PlanarGraph
 from .continuations import ALONE, Continuations, pairs_within
 from .limits import LIMITS
 from .topology import connected, lengths
-
-Array = np.ndarray
 
 LARGEST = 8  # half-branches of one cluster
 BATCH = 8192  # candidates looked at together, which bounds the memory

@@ -14,10 +14,9 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from ..arrays.sampling import sample
+from ..values import Array
 from .courses import Courses, direction
 from .limits import LIMITS
-
-Array = np.ndarray
 
 SAMPLES = 17  # points of a curve within the cluster, exits included
 ALONE = 1.0  # cost of a half-branch that runs on into none

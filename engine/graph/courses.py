@@ -14,11 +14,9 @@ import numpy as np
 
 from ..arrays.ragged import owners
 from ..arrays.sampling import sample
-from ..values import PlanarGraph
+from ..values import Array, PlanarGraph
 from .evidence import Evidence
 from .limits import LIMITS
-
-Array = np.ndarray
 
 CHUNK = 32768  # half-branches read at a time, which bounds the memory
 WINDOW = 16  # points of a half-branch, outside its cluster, that tell where it goes
@@ -45,7 +43,7 @@ class Courses:
     bend: Array
 
 
-def spoilt(graph: PlanarGraph, shape: tuple[int, int], reach: float) -> Array:
+def spoilt(graph: PlanarGraph, shape: tuple[int, ...], reach: float) -> Array:
     """(P,) bool: points nearer than `reach` px to a line that isn't their own course."""
     # A number per point that jumps between branches: far apart = not the same piece of line.
     place = np.arange(len(graph.points)) + 64 * owners(graph.offsets) + 64

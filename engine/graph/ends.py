@@ -17,8 +17,6 @@ from ..values import PlanarGraph
 from .evidence import Evidence
 from .limits import LIMITS
 
-Array = np.ndarray
-
 _BACK, _AHEAD, _STEP = 3.0, 3.0, 0.25  # px searched before and after the skeleton's end
 _INSIDE = 8  # points of the branch that give its direction and its brightness
 

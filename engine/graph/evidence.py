@@ -8,11 +8,9 @@ from functools import cached_property
 import cv2
 import numpy as np
 
-from ..values import LineMaps, Scan
+from ..values import Array, LineMaps, Scan
 from .limits import LIMITS
 from .ridge import Ridge
-
-Array = np.ndarray
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +42,8 @@ class Evidence:
     @property
     def shape(self) -> tuple[int, int]:
         """Height and width of the page, px."""
-        return self.maps.centerline.shape
+        height, width = self.maps.centerline.shape
+        return height, width
 
     @cached_property
     def ridge(self) -> Ridge:

@@ -13,13 +13,11 @@ import numpy as np
 
 from ..arrays.sampling import sample
 from ..settings import Settings
-from ..values import PlanarGraph
+from ..values import Array, PlanarGraph
 from .evidence import Evidence
 from .limits import LIMITS
 from .nearby import near_pairs
 from .topology import lengths
-
-Array = np.ndarray
 
 BACK = 8  # points that tell which way an end looks
 

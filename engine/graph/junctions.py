@@ -16,7 +16,7 @@ from ..arrays.ragged import offsets_of, ranges
 from ..arrays.sampling import sample
 from ..involution import least_cost
 from ..settings import Settings
-from ..values import PlanarGraph
+from ..values import Array, PlanarGraph
 from .clusters import find_clusters
 from .continuations import ALONE, SAMPLES, Continuations, extend, pairs_within
 from .courses import Courses, read_courses
@@ -24,8 +24,6 @@ from .evidence import Evidence
 from .limits import LIMITS
 from .shared_ridges import told_apart
 from .topology import connected, join
-
-Array = np.ndarray
 
 
 def resolve_junctions(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> PlanarGraph:

@@ -21,6 +21,7 @@ from .evidence import Evidence
 from .forks import merge_forks
 from .gaps import bridge_gaps
 from .junctions import resolve_junctions
+from .lifts import mark_lifts
 from .measure import measure
 from .page_edge import stay_on_page
 from .planarity import planarize
@@ -70,6 +71,7 @@ PASSES = (
     Pass("dust", remove_dust),
     Pass("stubs", remove_stubs),  # from here on with a routing
     Pass("measure-strokes", measure, optional=False),
+    Pass("lifts", mark_lifts),
 )
 MEASURED, ROUTED = "measure", "stubs"  # the first passes that need the ink, and a routing
 _PLACE = {one.name: place for place, one in enumerate(PASSES)}

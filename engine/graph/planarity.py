@@ -11,14 +11,12 @@ import numpy as np
 
 from ..arrays.ragged import owners
 from ..settings import Settings
-from ..values import PlanarGraph
+from ..values import Array, PlanarGraph
 from .courses import spoilt
 from .evidence import Evidence
 from .limits import LIMITS
 from .nearby import near_pairs
 from .topology import join
-
-Array = np.ndarray
 
 _WITHIN = 1e-4  # of a segment at its ends that count as outside
 

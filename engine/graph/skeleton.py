@@ -8,9 +8,8 @@ import cv2
 import numpy as np
 
 from ..arrays.ragged import offsets_of, owners
+from ..values import Array
 from .chains import follow
-
-Array = np.ndarray
 
 # The 8 neighbours (row, column): right, down, left, up, then the diagonals between them.
 _STEPS = np.array([(0, 1), (1, 0), (0, -1), (-1, 0), (1, 1), (1, -1), (-1, -1), (-1, 1)])
@@ -81,7 +80,7 @@ def trace(skeleton: Array) -> Chains:
 
 
 def _nodes(
-    shape: tuple[int, int], rows: Array, columns: Array, is_node: Array, degree: Array
+    shape: tuple[int, ...], rows: Array, columns: Array, is_node: Array, degree: Array
 ) -> tuple[Array, int]:
     """Number the node pixels; touching branch pixels get one number."""
     branching = np.zeros(shape, np.uint8)

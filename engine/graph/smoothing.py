@@ -17,8 +17,6 @@ from ..values import PlanarGraph
 from .evidence import Evidence
 from .limits import LIMITS
 
-Array = np.ndarray
-
 _PARABOLA = np.array([-3, 12, 17, 12, -3]) / 35
 
 

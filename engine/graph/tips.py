@@ -20,8 +20,6 @@ from .evidence import Evidence
 from .limits import LIMITS
 from .topology import lengths, select
 
-Array = np.ndarray
-
 SPAN = 5  # points on either side that tell the angle of a bend
 
 

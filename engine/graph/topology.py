@@ -6,11 +6,9 @@ import numpy as np
 
 from ..arrays.ragged import count_up, offsets_of, steps
 from ..settings import Settings
-from ..values import PlanarGraph
+from ..values import Array, PlanarGraph
 from .chains import follow
 from .evidence import Evidence
-
-Array = np.ndarray
 
 
 def select(graph: PlanarGraph, keep: Array) -> PlanarGraph:
@@ -45,8 +43,13 @@ def join(graph: PlanarGraph, hold: Array | None = None) -> PlanarGraph:
 
     hold: (V,) bool, vertices that stay all the same.
     """
+    return joined(graph, hold)[0]
+
+
+def joined(graph: PlanarGraph, hold: Array | None = None) -> tuple[PlanarGraph, Array]:
+    """What `join` makes, and (2B,) int32 which old half-branch each of its half-branches was."""
     if graph.branch_count == 0:
-        return PlanarGraph.empty()
+        return PlanarGraph.empty(), np.zeros(0, np.int32)
     halves = np.arange(2 * graph.branch_count)
     stop = graph.degrees != 2
     if hold is not None:
@@ -61,14 +64,18 @@ def join(graph: PlanarGraph, hold: Array | None = None) -> PlanarGraph:
     total, within = offsets_of(taken), count_up(taken)
     start = np.where(flipped, graph.offsets[branch + 1] - 1, graph.offsets[branch])
     step = np.where(flipped, -1, 1)
-    points = graph.points[np.repeat(start, taken) + np.repeat(step, taken) * within]
-    ends = np.stack(
-        [graph.half_vertex[order[bounds[:-1]]], graph.half_vertex[order[bounds[1:] - 1] ^ 1]], -1
+    index = np.repeat(start, taken) + np.repeat(step, taken) * within
+    halves = np.stack([order[bounds[:-1]], order[bounds[1:] - 1] ^ 1], -1).astype(np.int32)
+    ends = graph.half_vertex[halves]
+    measured = (graph.widths, graph.strength, graph.colors)
+    whole = PlanarGraph(
+        graph.vertices,
+        graph.points[index],
+        total[bounds].astype(np.int32),
+        ends.astype(np.int32),
+        *(None if values is None else values[index] for values in measured),
     )
-    joined = PlanarGraph(
-        graph.vertices, points, total[bounds].astype(np.int32), ends.astype(np.int32)
-    )
-    return select(joined, np.ones(joined.branch_count, bool))
+    return select(whole, np.ones(whole.branch_count, bool)), halves.reshape(-1)
 
 
 def connected(count: int, links: Array) -> Array:

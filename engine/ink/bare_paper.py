@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-Array = np.ndarray
+from ..values import Array
 
 _PAPER = 0.08  # how far a colour may be from the paper's, as a share of it
 _SHADE = (0.06, 0.3)  # the same for paper in shade: how far from grey, and how dark

@@ -9,12 +9,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..values import PlanarGraph
+from ..values import Array, PlanarGraph
 from .hue_peaks import hue_peaks, turn
 from .pencil import pencil
 from .tint import NEUTRAL, branch_colors, chroma_and_hue, tint
 
-Array = np.ndarray
 Color = tuple[int, int, int]
 
 _BLACK = 110.0  # grey value below which a neutral ink is simply black
@@ -85,7 +84,8 @@ def _typical(color: Array, weight: Array) -> Color:
     order = np.argsort(grey, kind="stable")
     reach = np.cumsum(weight[order])
     dark = order[: np.searchsorted(reach, reach[-1] / 2) + 1]
-    return tuple(round(_weighted_median(color[dark, c], weight[dark])) for c in range(3))
+    red, green, blue = (round(_weighted_median(color[dark, c], weight[dark])) for c in range(3))
+    return red, green, blue
 
 
 def _neutral(color: Array, weight: Array) -> Color:

@@ -8,11 +8,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..values import Array
 from .corners import MARGIN as CORNER_MARGIN
 from .lines import Lines, Pieces
 from .shared import SAMPLES_PER_PEN
-
-Array = np.ndarray
 
 WIDEST = 2.5  # pen widths; sigma at smoothing 1
 _JOINT = 0.75  # pen widths; least sigma where a stroke runs through a junction
@@ -75,7 +74,7 @@ def _neighbours(place: Array, stops: Array) -> tuple[Array, Array]:
     return np.maximum(before, 0), np.minimum(after, len(stops) - 1)
 
 
-def _fade(distance: Array, reach: Array) -> Array:
+def _fade(distance: Array, reach: Array | float) -> Array:
     """1 at 0, smoothly down to 0 at `reach`."""
     t = np.clip(1 - distance / np.maximum(reach, 1e-9), 0.0, 1.0)
     return t * t * (3 - 2 * t)

@@ -8,17 +8,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays.ragged import count_up
+from ..values import Array
 from .shared import Page
 from .walk import Walk
-
-Array = np.ndarray
 
 
 @dataclass(frozen=True, eq=False)
 class Lines:
     """Strokes as runs of samples; a closed stroke is continued round its seam on both sides.
 
-    sample: (N,) index into the samples of the page.
+    sample: (N,) index into the samples of the page, and branch: (N,) the branch it is on.
     first, last: (N,) index of the first and last sample of the run that each sample is in.
     joint: (N,) bool; a vertex of the graph that the stroke runs through.
     start: (S,) where the stroke itself begins in its run, and
@@ -26,6 +25,7 @@ class Lines:
     """
 
     sample: Array
+    branch: Array
     first: Array
     last: Array
     joint: Array
@@ -43,10 +43,10 @@ class Lines:
         of_half = np.repeat(np.arange(len(half)), count)
         backward = (half & 1)[of_half] == 1
         branch = half[of_half] >> 1
+        joint = (inside == 0) & page.crossed[half[of_half]]  # a corner is no junction
         sample = np.where(
             backward, page.offsets[branch + 1] - 1 - inside, page.offsets[branch] + inside
         )
-        joint = (inside == 0) & ~page.lonely[branch]  # where a circle begins is no junction
         size = np.add.reduceat(count, np.cumsum(steps) - steps)
         origin = np.cumsum(size) - size
 
@@ -62,6 +62,7 @@ class Lines:
         begin = np.cumsum(total) - total
         return cls(
             sample=np.where(at_tip, tip[run], sample[source]),
+            branch=np.where(at_tip, (final >> 1)[run], branch[source]),
             first=begin[run],
             last=(begin + total - 1)[run],
             joint=joint[source] & (closed[run] | ((place > 0) & ~at_tip)),

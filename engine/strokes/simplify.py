@@ -9,8 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays.ragged import ranges
-
-Array = np.ndarray
+from ..values import Array
 
 _STEPS = 32  # of the tolerance, to which errors are rounded up; see `worst_of`
 _EVEN = 24  # rounds after which stretches are halved, so that no line costs more than n log n

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import json
+import re
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -11,6 +12,7 @@ import numpy as np
 import pytest
 from involute.engine import Settings, vectorize
 from involute.engine.weights import names
+from involute.package import ROOT
 
 import benchmarks
 from benchmarks import charts, quality, readme_tables, run_record, side_by_side, speed
@@ -47,6 +49,19 @@ def test_whatever_can_be_run_has_a_name() -> None:
         if any(isinstance(node, ast.FunctionDef) and node.name == "main" for node in tree.body)
     }
     assert mains - modules == {"__main__", "redraw"}  # redraw runs inside Blender's window
+
+
+def test_what_the_window_measures_is_where_it_looks_for_it() -> None:
+    # That script can't import the project: it looks the modules up by name, in the extension.
+    text = Path(benchmarks.__file__).with_name("redraw.py").read_text("utf-8")
+    names = re.findall(r'_module\("([\w.]+)"\)', text)
+    files = {name: (ROOT / Path(*name.split("."))).with_suffix(".py") for name in names}
+    assert len(names) == 3
+    overlay = files["ui.overlay.overlay"].read_text("utf-8")
+    for name in ("_handles", "_seen", "draw_rings_and_routes", "draw_labels", "unregister", "kept"):
+        assert re.search(rf"\b{name}\b", overlay), name
+    assert "def shown_in" in files["operators.view.view_state"].read_text("utf-8")
+    assert "kept" in files["ui.overlay.cards"].read_text("utf-8")
 
 
 @pytest.mark.parametrize("name", RUNS)

@@ -21,7 +21,7 @@ NAMES = [one.name for one in PASSES]
 ORDER = [
     "skeleton", "forks", "spurs", "rungs", "tips", "bends", "junctions", "spacing", "ends", "gaps",
     "smoothing", "joining", "undrawn", "planarity", "page", "measure", "pencil", "measure-inked",
-    "dust", "stubs", "measure-strokes",
+    "dust", "stubs", "measure-strokes", "lifts",
 ]  # fmt: skip
 
 

@@ -60,8 +60,6 @@ def labelled(graph: PlanarGraph, strokes: list[Array]) -> Page:
     """
     strokes = single_lines(strokes)
     partner = np.arange(2 * graph.branch_count)
-    loop = np.flatnonzero(graph.degrees[graph.half_vertex] == 2)
-    partner[loop] = loop ^ 1
     owner = np.full(len(partner), -1)
     if strokes and graph.branch_count:
         lines = _Lines.of(strokes)

@@ -16,8 +16,6 @@ from ..evidence import Evidence
 from ..limits import LIMITS
 from ..topology import join, lengths, rank_at_vertex, select
 
-Array = np.ndarray
-
 
 def remove_spurs(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> PlanarGraph:
     """Drop the short loose branches that hang on a junction.
