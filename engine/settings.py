@@ -322,7 +322,7 @@ def _check(name: str, about: About, value: Any) -> None:
         kind, what = (Integral, "whole number") if about.kind is int else (Real, "number")
         if isinstance(value, bool) or not isinstance(value, kind):
             raise InvoluteError(f"Setting {name} must be a {what}.")
-        if not about.low <= value <= about.high:
+        if not about.low <= value <= about.high:  # type: ignore[operator]  # a Real has an order
             raise InvoluteError(
                 f"Setting {name} must lie between {about.low:g} and {about.high:g}."
             )

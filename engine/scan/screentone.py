@@ -48,7 +48,7 @@ def without_screentone(scan: Scan, settings: Settings) -> Scan:
 
 def _lattice(places: Array) -> tuple[Array, Array]:
     """(N,) bool: which of the points (N, 2) are in a lattice; (N,) px to the nearest other."""
-    tree = cv2.flann_Index(places, {"algorithm": 4, "leaf_max_size": 10})
+    tree = cv2.flann_Index(places, {"algorithm": 4, "leaf_max_size": 10})  # type: ignore[attr-defined]
     near, squared = tree.knnSearch(places, 5, params={"checks": -1})
     apart = np.sqrt(np.maximum(squared[:, 1:], 0))
     even = (apart[:, 3] < (1 + _ALIKE) * apart[:, 0]) & (apart[:, 0] < _FARTHEST)
