@@ -21,7 +21,10 @@ def traced(bpy, part):
 
 @pytest.fixture
 def view(bpy):
-    return bpy.context.window_manager.involute_view
+    """The window manager outlives files, and with it what tests before have looked at."""
+    view = bpy.context.window_manager.involute_view
+    view.junction = -1
+    return view
 
 
 def shown(bpy, part):
