@@ -41,13 +41,13 @@ def flattened(gray: Array, rules: bool = True) -> tuple[Array, bool]:
     """
     gray = np.ascontiguousarray(gray, np.float32)
     if gray.size > _LARGE:
-        return _flattened(gray)
+        return _flattened(gray, rules)
     above, before = (-place % _FRAME for place in _middle(gray))
     height, width = gray.shape
     below, after = -(height + above) % _FRAME, -(width + before) % _FRAME
     framed = cv2.copyMakeBorder(gray, above, below, before, after, cv2.BORDER_REPLICATE)
-    ink = _flattened(framed)[above : above + height, before : before + width]
-    return np.ascontiguousarray(ink)
+    ink, ruled = _flattened(framed, rules)
+    return np.ascontiguousarray(ink[above : above + height, before : before + width]), ruled
 
 
 def _middle(gray: Array) -> tuple[int, int]:
@@ -59,8 +59,8 @@ def _middle(gray: Array) -> tuple[int, int]:
     return row, column
 
 
-def _flattened(gray: Array) -> Array:
-    """The ink of a page whose blocks begin at its corner."""
+def _flattened(gray: Array, rules: bool) -> tuple[Array, bool]:
+    """The same for a page whose blocks begin at its corner."""
     # In place wherever it can be: a page of 8192 px has 256 MiB in every such array.
     rough = _light_paper(gray)
     np.subtract(1.0, np.divide(gray, rough, out=rough), out=rough)
