@@ -31,7 +31,7 @@ from ..routing.traced import MOST_FALSE, look_ink, look_scan, on_canvas
 Array = np.ndarray
 
 _SCANNED = 0.75  # share of the pages; the others are even ink
-_SIZE = (0.6, 1.0)  # of a page of the benchmark's size: smaller ones are traced sooner
+_SIZE = (0.55, 0.9)  # of a page of the benchmark's size: smaller ones are traced sooner
 _PEN = 4.0  # px; a habit moves ends by shares of this
 _PIECE = 40  # pages between two writings of the file
 JOINED, LIFTED, UNKNOWN = 1, 0, -1
@@ -104,10 +104,11 @@ def _prepare(data: Path, held_out: bool, seed: int) -> None:
 def _corners(number: int) -> tuple[Array, Array, float]:
     """Evidence and truth of one page, and its habit; none when it is no example."""
     rng, settings = np.random.default_rng((_seed, number)), Settings()
-    strokes = next(endless(rng, _library))
     size = rng.uniform(*_SIZE)
-    strokes = loosened(rng, [line * size for line in strokes])
+    strokes = [line * size for line in next(endless(rng, _library))]
     habit = Habit.drawn(rng, _PEN)
+    if habit.corners:  # a hand that lifts is looser everywhere
+        strokes = loosened(rng, strokes)
     strokes = on_canvas(lifted(rng, strokes, habit))
     if strokes:
         look = look_scan if rng.random() < _SCANNED else look_ink

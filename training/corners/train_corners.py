@@ -14,7 +14,6 @@ from pathlib import Path
 import numpy as np
 import torch
 from involute.engine.graph.clues import WEIGHTS
-from involute.engine.graph.lifts import SIDE
 from torch import nn
 
 from .. import digests
@@ -24,10 +23,9 @@ Array = np.ndarray
 Tensor = torch.Tensor
 
 CLUES = 8  # numbers that are kept of each corner
-_SEE, _JUDGE = (64, 32), (32,)  # widths of the hidden layers
+_SEE, _JUDGE = (32,), (24,)  # widths of the hidden layers
 _PAGES = 24  # pages of a batch
 _DECIDED = 0.3  # share of the pages on which a user has decided some corners
-_BLIND = 0.08  # share of the pages on which the patches, or all maps of the network, are hidden
 
 
 class Lifts(nn.Module):
@@ -102,12 +100,6 @@ def joined(paths: list[Path]) -> Corners:
     )
 
 
-def mirrored(evidence: Tensor) -> Tensor:
-    """The same corners seen in a mirror: only the patches change."""
-    patch = evidence[:, -3 * SIDE * SIDE :].reshape(-1, 3, SIDE, SIDE).flip(2)
-    return torch.cat([evidence[:, : -3 * SIDE * SIDE], patch.reshape(len(patch), -1)], 1)
-
-
 def train(data: Corners, held: Corners, steps: int, seed: int, dropout: float) -> Lifts:
     """The weights that are best on the held-out pages."""
     torch.manual_seed(seed)
@@ -138,7 +130,7 @@ def train(data: Corners, held: Corners, steps: int, seed: int, dropout: float) -
             model.eval()
             figure = figures(model, held)
             model.train()
-            print(step + 1, round(float(loss), 3), figure, flush=True)
+            print(step + 1, round(float(loss.detach()), 3), figure, flush=True)
             if figure["loss"] < best:
                 best = figure["loss"]
                 kept = {name: value.clone() for name, value in model.state_dict().items()}
@@ -149,8 +141,6 @@ def train(data: Corners, held: Corners, steps: int, seed: int, dropout: float) -
 def _loss(
     rng: np.random.Generator, model: Lifts, seen: Tensor, page: Array, truth: Array
 ) -> Tensor:
-    if rng.random() < 0.5:
-        seen = mirrored(seen)
     page = torch.from_numpy(page)
     decided = np.zeros(len(truth), np.float32)
     share = np.where(rng.random(_PAGES) < _DECIDED, rng.uniform(0, 0.4, _PAGES), 0)
@@ -205,9 +195,9 @@ def main() -> None:
     parser.add_argument("--train", type=Path, nargs="+", required=True)
     parser.add_argument("--held-out", type=Path, required=True)
     parser.add_argument("--out", type=Path, default=WEIGHTS)
-    parser.add_argument("--steps", type=int, default=2000)
+    parser.add_argument("--steps", type=int, default=1000)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--dropout", type=float, default=0.2)
+    parser.add_argument("--dropout", type=float, default=0.25)
     args = parser.parse_args()
     held = Corners.load(args.held_out)
     model = train(joined(args.train), held, args.steps, args.seed, args.dropout)
