@@ -245,7 +245,15 @@ def summary(drawing: Drawing) -> dict[str, Any]:
         "height": drawing.size[1],
         "peak_rss_mb": peak_rss_mb(),
         **aligned,
+        **_checked(drawing),
     }
+
+
+def _checked(drawing) -> dict[str, Any]:
+    """What the drawing says of itself: shares lost and invented, notes and warnings."""
+    found = drawing.fidelity
+    figures = {"lost": round(found.lost, 5), "invented": round(found.invented, 5)} if found else {}
+    return {**figures, "notes": list(drawing.notes), "warnings": list(drawing.warnings)}
 
 
 def peak_rss_mb() -> float | None:

@@ -63,7 +63,7 @@ class ProgressDisplay:
             self._line(f"{name}: {figures(outcome)}{_where(outputs)}")
             if self._stages:
                 self._details(outcome.report)
-        if not outcome.report.get("strokes", 1):
+        if not outcome.report.get("strokes", 1) and not outcome.report.get("warnings"):
             self.warning(f"{name}: warning: there are no lines; the drawing is empty.")
         for sentence in outcome.report.get("warnings", ()):
             self.warning(f"{name}: warning: {sentence}")
@@ -100,7 +100,8 @@ class ProgressDisplay:
 def figures(outcome: Outcome) -> str:
     """What is in a drawing, in a few words."""
     report = outcome.report
-    said = [f"{report.get('strokes', 0):,} strokes", _many(report.get("doubtful", 0))]
+    said = [_many(report.get("strokes", 0), "stroke")]
+    said.append(_many(report.get("doubtful", 0), "doubtful junction"))
     if (lost := report.get("lost")) is not None:
         said.append(f"{100 * (1 - lost):.1f} % of the ink")
     if outcome.resumed:
@@ -108,8 +109,8 @@ def figures(outcome: Outcome) -> str:
     return ", ".join(said)
 
 
-def _many(doubtful: int) -> str:
-    return f"{doubtful:,} doubtful junction{'' if doubtful == 1 else 's'}"
+def _many(count: int, what: str) -> str:
+    return f"{count:,} {what}{'' if count == 1 else 's'}"
 
 
 def _where(outputs: Sequence[Path]) -> str:

@@ -14,6 +14,7 @@ from os import PathLike
 import numpy as np
 
 from .errors import InvoluteError
+from .fidelity import Fidelity, fidelity, warnings
 from .graph.editing import cut_branch, join_ends, place_on
 from .routing import checked_pairs, route
 from .routing.lifting import goes_on
@@ -23,6 +24,7 @@ from .values import Array, Junction, Pair, PlanarGraph, Routing, Scan, Stroke
 
 Fill = tuple[Array, ...]
 
+STROKE_SETTINGS = ("smoothing", "curve", "tolerance")  # change nothing but the last stage
 DOUBTFUL = 0.3  # doubt from which on a junction is worth a look
 
 
@@ -39,6 +41,9 @@ class Drawing:
     scale: input pixels per working pixel, the unit in which routing judges lengths.
     aligned: False when the page was to be aligned and had nothing to align by; not kept in files.
     region_colors: (R, 3) uint8 sRGB of `regions`; None = all are white.
+    fidelity: how faithful it was to the ink when it was traced; None when nobody looked.
+    notes: what was left out of it on purpose, a sentence each.
+    warnings: what is wrong with it, each with what to do about it.
     page: what all strokes share, for rerouting; None = found from the graph when first needed. Not
         kept in files.
     """
@@ -53,6 +58,9 @@ class Drawing:
     scale: float = 1.0
     aligned: bool = True
     region_colors: Array | None = None
+    fidelity: Fidelity | None = None
+    notes: tuple[str, ...] = ()
+    warnings: tuple[str, ...] = ()
     page: Page | None = field(default=None, repr=False)
 
     @classmethod
@@ -79,6 +87,7 @@ class Drawing:
             settings=settings,
             scale=float(scan.scale),
             aligned=scan.aligned,
+            notes=scan.notes,
             page=page,
         )
         if settings.regions and scan.color is not None:
@@ -91,6 +100,11 @@ class Drawing:
     def with_seconds(self, seconds: Mapping[str, float]) -> Drawing:
         """The same drawing with the time that each stage took."""
         return replace(self, seconds=dict(seconds))
+
+    def compared_with(self, scan: Scan) -> Drawing:
+        """The same drawing, checked against the ink of the page that it was traced from."""
+        found = fidelity(self.strokes, self.fills, scan.ink, self.scale, self.settings.width_scale)
+        return replace(self, fidelity=found, warnings=warnings(found, scan.light))
 
     @cached_property
     def junctions(self) -> tuple[Junction, ...]:
@@ -131,6 +145,7 @@ class Drawing:
 
         if self.graph.branch_count == 0:
             return ()
+        assert self.graph.widths is not None, "a drawing's graph is measured"
         return closed_regions(self.graph, 4.0 * float(np.median(self.graph.widths)) ** 2)
 
     @property
@@ -242,6 +257,16 @@ class Drawing:
         fixed = {place.index: place.pairs for place in self._places if place.locked}
         routing = route(_scaled(self.graph, 1 / self.scale), self.settings, fixed)
         return replace(self._with_partner(routing.partner), routing=routing)
+
+    def restroked(self, settings: Settings) -> Drawing:
+        """The same lines and decisions with the strokes made anew.
+
+        Args:
+            settings: may differ in `STROKE_SETTINGS` only.
+        """
+        page = Page.of(self.graph, settings)
+        strokes = tuple(build(page, walk(self.routing.partner)))
+        return replace(self, strokes=strokes, settings=settings, page=page)
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write the drawing; the suffix says how (.json keeps everything)."""

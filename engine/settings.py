@@ -132,6 +132,31 @@ class Settings:
         tip="Turn areas of solid ink into fills instead of tracing them as lines",
         off="trace solid black areas as lines too, instead of making them fills",
     )
+    solid_width: float = _number(
+        0.0,
+        0.0,
+        1000.0,
+        soft_high=100.0,
+        unit="px",
+        group=WHAT,
+        label="Solid Width",
+        tip="Lines wider than this, in pixels of the picture, are solid areas; 0 finds out from "
+        "the pen",
+    )
+    sheet: bool = _switch(
+        True,
+        group=WHAT,
+        label="Leave Out Surroundings",
+        tip="Don't trace what lies beyond the sheet in a photograph: cloth, a desk, a finger",
+        off="trace what lies beyond the sheet in a photograph too",
+    )
+    screentone: bool = _switch(
+        True,
+        group=WHAT,
+        label="Leave Out Screentone",
+        tip="Don't trace areas of evenly set dots, such as the tones of a comic",
+        off="trace every dot of a screentone",
+    )
     marks: bool = _switch(
         True,
         group=WHAT,
@@ -157,6 +182,14 @@ class Settings:
         label="Specks",
         tip="Drop lone strokes shorter than this many pen widths",
         more="Strokes that hang on other lines are dropped up to twice that length",
+    )
+    dots: bool = _switch(
+        True,
+        group=CLEAN,
+        label="Keep Dots",
+        tip="Keep dots of full ink about as wide as the pen, which are no specks",
+        off="drop small dots as specks",
+        more="Dots wider than three quarters of *Specks* times the pen",
     )
     smoothing: float = _number(
         0.3,
@@ -203,6 +236,30 @@ class Settings:
         label="Device",
         tip="Where the networks run",
         more="The processor does well",
+    )
+    opacity: str = _one_of(
+        ("auto", "Automatic", "Solid for ink, as drawn for pencil"),
+        ("solid", "Solid", "Every stroke is opaque"),
+        ("drawn", "As Drawn", "As strong as the line on the paper"),
+        group=POINTS,
+        label="Opacity",
+        tip="How opaque the strokes are",
+        more="One value for a stroke, unless the line really fades along it",
+    )
+    width_scale: float = _number(
+        1.0,
+        0.05,
+        20.0,
+        soft_high=3.0,
+        group=POINTS,
+        label="Width Scale",
+        tip="Make the strokes this many times as wide as the lines on the paper",
+    )
+    even_width: bool = _switch(
+        False,
+        group=POINTS,
+        label="Even Width",
+        tip="Give each stroke one width all along, that of its line on average",
     )
     curve: str = _one_of(
         ("polyline", "Points", "Plain points, for sculpting and drawing over"),
@@ -265,7 +322,7 @@ def _check(name: str, about: About, value: Any) -> None:
         kind, what = (Integral, "whole number") if about.kind is int else (Real, "number")
         if isinstance(value, bool) or not isinstance(value, kind):
             raise InvoluteError(f"Setting {name} must be a {what}.")
-        if not about.low <= value <= about.high:
+        if not about.low <= value <= about.high:  # type: ignore[operator]  # a Real has an order
             raise InvoluteError(
                 f"Setting {name} must lie between {about.low:g} and {about.high:g}."
             )

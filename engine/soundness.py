@@ -50,11 +50,21 @@ def check_drawing(drawing: Drawing) -> None:
             _table(ring, "f", (None, 2), f"the outline of fill {number}")
             _need(len(ring) > 0, f"an outline of fill {number} has no points")
             _within(ring, _FARTHEST, f"the outline of fill {number}")
+    _check_fidelity(drawing)
     if drawing.region_colors is not None:
         _table(drawing.region_colors, "u", (None, 3), "the colors of its regions")
         if drawing.settings.regions:
             count = len(drawing.regions)
             _need(len(drawing.region_colors) == count, "the colors of its regions don't fit them")
+
+
+def _check_fidelity(drawing: Drawing) -> None:
+    found = drawing.fidelity
+    if found is None:
+        return
+    _need(0 <= found.lost <= 1 and 0 <= found.invented <= 1, "its fidelity is no share")
+    boxes = [side for box in (*found.lost_at, *found.invented_at) for side in box]
+    _need(all(abs(side) <= _FARTHEST for side in boxes), "the places of its fidelity can't be")
 
 
 def check_graph(graph: PlanarGraph) -> None:
@@ -99,12 +109,8 @@ def check_routing(graph: PlanarGraph, routing: Routing) -> None:
     Raises:
         UnsoundError: says what is wrong first.
     """
-    halves = 2 * graph.branch_count
-    partner, at = routing.partner, graph.half_vertex
-    _table(partner, "i", (halves,), "the partners of the half-branches")
-    _numbered(partner, halves, "the partners of the half-branches")
-    _need((partner[partner] == np.arange(halves)).all(), "its routing is no involution")
-    _need((at[partner] == at).all(), "its routing joins what does not meet")
+    halves, at = 2 * graph.branch_count, graph.half_vertex
+    check_involution(graph, routing.partner)
     _table(routing.pairs, "i", (None, 2), "the pairs of half-branches")
     _numbered(routing.pairs, halves, "the pairs of half-branches")
     a, b = routing.pairs.T
@@ -116,6 +122,22 @@ def check_routing(graph: PlanarGraph, routing: Routing) -> None:
     _need(len(routing.alternatives) == len(places), "the alternatives don't fit the junctions")
     for number, ways in enumerate(routing.alternatives):
         _check_ways(ways, set(graph.halves_of(places[number]).tolist()), f"junction {number}")
+
+
+def check_involution(graph: PlanarGraph, partner: Array) -> None:
+    """Each half-branch ends, or continues in one that continues in it, at the same vertex.
+
+    Args:
+        partner: (2B,) int32.
+
+    Raises:
+        UnsoundError: it does not; to walk along it might never end.
+    """
+    halves, at = 2 * graph.branch_count, graph.half_vertex
+    _table(partner, "i", (halves,), "the partners of the half-branches")
+    _numbered(partner, halves, "the partners of the half-branches")
+    _need((partner[partner] == np.arange(halves)).all(), "its routing is no involution")
+    _need((at[partner] == at).all(), "its routing joins what does not meet")
 
 
 def _check_ways(ways: tuple[Alternative, ...], halves: set[int], where: str) -> None:

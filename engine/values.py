@@ -27,6 +27,8 @@ class Scan:
     size: (width, height) of the input in its own pixels.
     pen_width: typical width of a line, in working pixels.
     aligned: False when it was to be aligned to other pages and has nothing to align by.
+    light: whether it was taken, by itself, for light lines on a dark ground.
+    notes: what was left out of it, a sentence each.
     """
 
     ink: Array
@@ -35,6 +37,8 @@ class Scan:
     size: tuple[int, int]
     pen_width: float
     aligned: bool = True
+    light: bool = False
+    notes: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)

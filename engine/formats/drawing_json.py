@@ -22,6 +22,7 @@ import numpy as np
 
 from ..drawing import Drawing
 from ..errors import InvoluteError
+from ..fidelity import Fidelity
 from ..routing import with_corners
 from ..settings import Settings
 from ..soundness import UnsoundError, check_drawing, check_graph
@@ -77,6 +78,9 @@ def dumps(drawing: Drawing) -> str:
             "ring_offsets": _packed(_offsets([len(fill) for fill in drawing.fills])),
         },
         "region_colors": _packed(drawing.region_colors),
+        "fidelity": drawing.fidelity and drawing.fidelity.as_dict(),
+        "notes": list(drawing.notes),
+        "warnings": list(drawing.warnings),
     }
     return json.dumps(document, separators=(",", ":"))
 
@@ -147,21 +151,28 @@ def _drawing(document: dict[str, Any]) -> Drawing:
         settings = Settings(**{k: v for k, v in document["settings"].items() if k in known})
     except InvoluteError as error:
         raise UnsoundError(str(error).rstrip(".")) from None
+
+    def tables(part: dict[str, Any]) -> dict[str, Any]:
+        return {name: unpack(packed) for name, packed in part.items()}
+
     routing = dict(document["routing"])
     alternatives = tuple(
         tuple(Alternative(tuple((a, b) for a, b in pairs), p) for pairs, p in ways)
         for ways in routing.pop("alternatives")
     )
     return Drawing(
-        graph=PlanarGraph(**{k: unpack(v) for k, v in document["graph"].items()}),
-        routing=Routing(**{k: unpack(v) for k, v in routing.items()}, alternatives=alternatives),
-        strokes=tuple(_strokes({k: unpack(v) for k, v in document["strokes"].items()})),
-        fills=tuple(_fills({k: unpack(v) for k, v in document["fills"].items()})),
+        graph=PlanarGraph(**tables(document["graph"])),
+        routing=Routing(**tables(routing), alternatives=alternatives),
+        strokes=tuple(_strokes(tables(document["strokes"]))),
+        fills=tuple(_fills(tables(document["fills"]))),
         size=(width, height),
         settings=settings,
         seconds=dict(document["seconds"]),
         scale=float(document.get("scale", 1.0)),
         region_colors=unpack(document.get("region_colors")),
+        fidelity=Fidelity.from_dict(document["fidelity"]) if document.get("fidelity") else None,
+        notes=tuple(map(str, document.get("notes", ()))),
+        warnings=tuple(map(str, document.get("warnings", ()))),
     )
 
 

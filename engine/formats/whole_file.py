@@ -27,6 +27,7 @@ _REASONS = {
     errno.ENOENT: "its folder doesn't exist; make it first",
     errno.ENOTDIR: "its folder is a file; choose another folder",
     errno.EISDIR: "a folder of that name is in the way; choose another name",
+    errno.EINVAL: "what stands there is no file; choose another name",
     errno.ENAMETOOLONG: "its name is too long; choose a shorter one",
     errno.ELOOP: "links there lead in a circle; choose another folder",
 }
@@ -110,6 +111,10 @@ def write_bytes(data: bytes, path: Path) -> None:
 
 def _new_part(path: Path) -> Path:
     """An empty file beside a path, under a name that nobody can guess and no link can hold."""
+    if path.is_dir() and not path.is_symlink():
+        raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
+    if path.exists() and not path.is_file():  # a device or a pipe would become a file
+        raise OSError(errno.EINVAL, os.strerror(errno.EINVAL))
     # The suffix stays: some writers choose their format by it.
     name = f".{_short(path.name)}-{_HOST}-{os.getpid()}-{secrets.token_hex(8)}.part{path.suffix}"
     part = path.with_name(name)

@@ -15,13 +15,11 @@ import numpy as np
 
 from ..arrays.sampling import sample
 from ..settings import Settings
-from ..values import LineMaps, PlanarGraph, Scan
+from ..values import Array, LineMaps, PlanarGraph, Scan
 from .clues import available, clues
 from .evidence import Evidence
 from .nearby import near_pairs
 from .topology import join, lengths
-
-Array = np.ndarray
 
 ARM = 1.5  # pen widths of line on both sides that tell a corner
 LEAST_ARM = 4  # px

@@ -150,6 +150,12 @@ class Limits:
     dust_faint: float = _limit(
         0.5, "share", "of the full ink below which a piece is as likely a scratch as a line"
     )
+    dot_narrowest: float = _limit(
+        0.75, "pen widths", "of a dot, for each of Settings.min_length", "tests/engine/test_dust.py"
+    )
+    dot_solid: float = _limit(
+        0.8, "share", "of the full ink that a dot has", "tests/engine/test_dust.py"
+    )
     stub_tip: float = _limit(
         1.5,
         "times",

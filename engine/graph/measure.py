@@ -11,8 +11,10 @@ from ..settings import Settings
 from ..values import Array, PlanarGraph, Scan
 from .evidence import Evidence
 from .limits import LIMITS
+from .topology import lengths
 
 _STEP = 0.5  # px between the samples across a line
+_DOT = 1.0  # px; a shorter branch is a dot, as `skeleton_graph` makes them
 
 
 def measure(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> PlanarGraph:
@@ -26,6 +28,11 @@ def measure(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> Plana
         return graph
     if maps.half_width is not None:
         widths = 2 * sample(maps.half_width, graph.points)
+        # Of a dot the network sees half; nothing where another provider has seen the line.
+        dot = np.repeat(lengths(graph) < _DOT, np.diff(graph.offsets))
+        unknown = np.isnan(widths) | dot
+        if unknown.any():
+            widths = np.where(unknown, _widths(graph, scan), widths)
     else:
         widths = _widths(graph, scan)
     widths = np.where(np.isfinite(widths) & (widths > 0), widths, scan.pen_width)

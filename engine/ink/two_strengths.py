@@ -7,10 +7,7 @@ and firmly drawn pencil stays together.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
-import numpy as np
-
+from ..arrays.two_clusters import Split, best_split
 from ..values import Array
 
 # Of 12 pages (benchmarks.pencil_under_ink), strengths seen along lines and in pixels: ink over
@@ -20,46 +17,17 @@ _BETWEEN = (0.3, 0.8)  # how much may be neither: 0.3 for each 1 below 0.8 of th
 _LEAST = 0.1  # what either must have; less may be dirt, or badly printed
 
 
-@dataclass(frozen=True)
-class Split:
-    """level: the strongest of the fainter medium; faint, strong: the mean of either;
-    share: of all, what the smaller of them has; between: of all, what is neither clearly."""
-
-    level: float
-    faint: float
-    strong: float
-    share: float
-    between: float
-
-    @property
-    def is_of_two_media(self) -> bool:
-        ratio = self.faint / self.strong
-        apart = self.between < _BETWEEN[0] * (_BETWEEN[1] - ratio)
-        return ratio < _FAINTER and apart and self.share > _LEAST
-
-
 def split_strengths(strength: Array, weight: Array) -> Split | None:
-    """The split that leaves the least variance on both sides (Otsu 1979); None for one medium.
+    """Where the strengths of two media part; None for one medium.
 
     Args:
         strength: (N,) and weight: (N,) how much each counts, > 0.
     """
-    order = np.argsort(strength, kind="stable")
-    value, weight = strength[order], weight[order]
-    if len(value) < 2 or value[0] == value[-1]:
-        return None
-    below, mass = np.cumsum(weight), np.cumsum(weight * value)
-    above = below[-1] - below[:-1]
-    faint, strong = mass[:-1] / below[:-1], (mass[-1] - mass[:-1]) / above
-    at = int((below[:-1] * above * (strong - faint) ** 2).argmax())
-    low, high = float(faint[at]), float(strong[at])
-    third = (high - low) / 3
-    between = weight[(value > low + third) & (value < high - third)].sum()
-    split = Split(
-        level=float(value[at]),
-        faint=low,
-        strong=high,
-        share=float(min(below[at], above[at]) / below[-1]),
-        between=float(between / below[-1]),
-    )
-    return split if split.is_of_two_media else None
+    split = best_split(strength, weight)
+    return split if split is not None and _is_of_two_media(split) else None
+
+
+def _is_of_two_media(split: Split) -> bool:
+    ratio = split.low / split.high
+    apart = split.between < _BETWEEN[0] * (_BETWEEN[1] - ratio)
+    return ratio < _FAINTER and apart and split.share > _LEAST

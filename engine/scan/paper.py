@@ -92,7 +92,7 @@ def _gate(darkness: Array, bare: Array, pen: float) -> None:
 
     Judged on smoothed ink, where grain is weaker and the gaps in a pencil line are closed.
     """
-    smooth = cv2.GaussianBlur(darkness, (0, 0), 1.2)
+    smooth: Array = cv2.GaussianBlur(darkness, (0, 0), 1.2)
     calm = cv2.erode(bare, np.ones((5, 5), np.uint8))  # not the foot of a line
     share = _to_grid(calm.astype(np.float32))
     square = np.square(smooth)
@@ -131,8 +131,8 @@ def _to_grid(image: Array) -> Array:
     return cv2.resize(image, blocks, interpolation=cv2.INTER_AREA)
 
 
-def _from_grid(grid: Array, shape: tuple[int, int]) -> Array:
-    return cv2.resize(grid, shape[::-1], interpolation=cv2.INTER_LINEAR)
+def _from_grid(grid: Array, shape: tuple[int, ...]) -> Array:
+    return cv2.resize(grid, shape[1::-1], interpolation=cv2.INTER_LINEAR)
 
 
 def _smooth_fill(grid: Array, known: Array) -> Array:

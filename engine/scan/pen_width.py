@@ -6,6 +6,7 @@ import cv2
 import numpy as np
 
 from ..arrays.distance import depth
+from ..arrays.two_clusters import finer_pen
 from ..values import Array
 from .paper import flatten_paper
 from .picture import unit
@@ -27,8 +28,11 @@ def measured_pen(gray: Array, ink: Array | None) -> float:
 
 
 def _typical(widths: list[Array]) -> float:
-    """The mean of the middle half: as robust as a median, but not confined to whole pixels."""
-    every = np.sort(np.concatenate([np.zeros(0), *widths]))
+    """The mean of the middle half: as robust as a median, but not confined to whole pixels.
+
+    Where a page has two pens, a fine and a broad one, the fine one: it is the harder to see.
+    """
+    every = finer_pen(np.sort(np.concatenate([np.zeros(0), *widths])))
     middle = every[len(every) // 4 : -(-3 * len(every) // 4)]
     return float(middle.mean()) if middle.size else 0.0
 

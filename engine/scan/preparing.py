@@ -3,6 +3,7 @@
 image_file   a file is decoded
 picture      its values are checked, transparent becomes white
 polarity     dark lines on light, whichever it was
+sheet        what lies beyond the sheet in a photograph goes
 pen_width    how wide its pen is, which decides at what scale it is traced
 paper        paper, shading, grain and printed rules are taken out: what is left is ink
 """
@@ -18,6 +19,7 @@ from .paper import flatten_paper
 from .pen_width import measured_pen
 from .picture import Source, as_bytes, checked_picture, darkest_gray, unit
 from .polarity import is_light_on_dark, with_lightness_inverted
+from .sheet import find_sheet, without_surroundings
 
 _PEN_RANGE = (1.5, 8.0)  # working px; pens within stay as they are
 _PEN_TARGET = (2.5, 6.0)  # what thinner and thicker ones are brought to
@@ -49,8 +51,14 @@ def read_scan(source: Source, settings: Settings, page: int = 0) -> Scan:
     if settings.provider == "given":
         luma = cv2.cvtColor(picture, cv2.COLOR_RGB2GRAY) if picture.ndim == 3 else picture
         return Scan(unit(luma), None, 1.0, (width, height), settings.pen_width or 2.0)
-    if is_light_on_dark(picture, settings):
+    light = is_light_on_dark(picture, settings)
+    if light:
         picture = with_lightness_inverted(picture)
+    notes: tuple[str, ...] = ()
+    sheet = find_sheet(picture) if settings.sheet else None
+    if sheet:
+        picture = without_surroundings(picture, sheet)
+        notes = (f"What lies beyond the sheet was left out: {sheet.share:.0%} of the picture.",)
     gray = darkest_gray(picture)
     ink = flatten_paper(unit(gray)) if gray.size <= _FLAT_WHOLE else None
     pen = settings.pen_width or measured_pen(gray, ink) or _DEFAULT_PEN
@@ -58,7 +66,8 @@ def read_scan(source: Source, settings: Settings, page: int = 0) -> Scan:
     if ink is None or scale != 1.0:
         ink = flatten_paper(unit(_resized(gray, scale)))
     color = as_bytes(_resized(picture, scale)) if picture.ndim == 3 else None
-    return Scan(ink, color, scale, (width, height), pen / scale)
+    guessed = light and settings.polarity == "auto"
+    return Scan(ink, color, scale, (width, height), pen / scale, light=guessed, notes=notes)
 
 
 def _working_scale(pen: float, width: int, height: int) -> float:

@@ -17,7 +17,7 @@ from .walk import Walk
 class Lines:
     """Strokes as runs of samples; a closed stroke is continued round its seam on both sides.
 
-    sample: (N,) index into the samples of the page.
+    sample: (N,) index into the samples of the page, and branch: (N,) the branch it is on.
     first, last: (N,) index of the first and last sample of the run that each sample is in.
     joint: (N,) bool; a vertex of the graph that the stroke runs through.
     start: (S,) where the stroke itself begins in its run, and
@@ -25,6 +25,7 @@ class Lines:
     """
 
     sample: Array
+    branch: Array
     first: Array
     last: Array
     joint: Array
@@ -61,6 +62,7 @@ class Lines:
         begin = np.cumsum(total) - total
         return cls(
             sample=np.where(at_tip, tip[run], sample[source]),
+            branch=np.where(at_tip, (final >> 1)[run], branch[source]),
             first=begin[run],
             last=(begin + total - 1)[run],
             joint=joint[source] & (closed[run] | ((place > 0) & ~at_tip)),

@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 import shapely
 from hypothesis import given
-from hypothesis import strategies as st
 from involute.engine.fills.faces import closed_regions
 from involute.engine.values import PlanarGraph
 from involute.synthesis.true_graph import graph_from_strokes
+
+from tests.engine.scribbles import scribbles
 
 
 def area(ring):
@@ -81,9 +82,9 @@ def slivers(graph):
     return found
 
 
-@given(st.integers(0, 10_000), st.integers(1, 12))
-def test_euler_counts_the_regions_and_they_do_not_overlap(scribble, seed, count):
-    graph, _ = scribble(seed, count)
+@given(scribbles(12))
+def test_euler_counts_the_regions_and_they_do_not_overlap(scribble, drawn):
+    graph, _ = scribble(drawn)
     regions = closed_regions(graph)
     parent = np.arange(len(graph.vertices))
     for a, b in graph.ends:  # groups of lines that hang together

@@ -7,7 +7,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from hypothesis import given
-from hypothesis import strategies as st
 from involute.engine import Settings
 from involute.engine.graph import Evidence
 from involute.engine.graph.removal.stubs import remove_stubs
@@ -15,6 +14,8 @@ from involute.engine.graph.topology import lengths
 from involute.engine.routing import route
 from involute.engine.values import LineMaps, PlanarGraph
 from involute.synthesis.true_graph import graph_from_strokes
+
+from tests.engine.scribbles import scribbles
 
 PEN = 3.0
 GEOMETRIC = Settings(router="geometric")
@@ -63,9 +64,9 @@ def test_nothing_to_trim():
     assert trim(empty, np.zeros(0, np.int32), Settings()) is empty
 
 
-@given(st.integers(0, 10_000), st.integers(1, 12))
-def test_only_stubs_go(scribble, seed, count):
-    graph, _ = scribble(seed, count)
+@given(scribbles(12))
+def test_only_stubs_go(scribble, drawn):
+    graph, _ = scribble(drawn)
     graph = replace(graph, widths=np.full(len(graph.points), PEN, np.float32))
     partner = route(graph, GEOMETRIC).partner
     left = trim(graph, partner, Settings())

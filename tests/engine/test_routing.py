@@ -17,6 +17,8 @@ from involute.engine.routing.features import half_features
 from involute.engine.values import PlanarGraph
 from involute.synthesis.true_graph import graph_from_strokes
 
+from tests.engine.scribbles import scribbles
+
 GEOMETRIC = Settings(router="geometric")
 
 
@@ -74,9 +76,9 @@ def test_a_star_too_large_to_list_is_still_routed_best() -> None:
     assert len(routing.alternatives[0][0].pairs) == 7
 
 
-@given(st.integers(0, 500), st.integers(1, 12))
-def test_routing_is_an_involution_inside_junctions(scribble, seed: int, count: int) -> None:
-    graph, _ = scribble(seed, count)
+@given(scribbles(12))
+def test_routing_is_an_involution_inside_junctions(scribble, drawn: list[int]) -> None:
+    graph, _ = scribble(drawn)
     routing = route(graph, GEOMETRIC)
     halves = np.arange(2 * graph.branch_count)
     assert (routing.partner[routing.partner] == halves).all()
@@ -91,9 +93,9 @@ def test_routing_is_an_involution_inside_junctions(scribble, seed: int, count: i
         assert 0 < sum(probability) <= 1 + 1e-6
 
 
-@given(st.integers(0, 500))
-def test_candidate_pairs_are_all_pairs_at_junctions(scribble, seed: int) -> None:
-    graph, _ = scribble(seed)
+@given(scribbles())
+def test_candidate_pairs_are_all_pairs_at_junctions(scribble, drawn: list[int]) -> None:
+    graph, _ = scribble(drawn)
     pairs = {tuple(p) for p in candidate_pairs(graph).tolist()}
     vertex = graph.half_vertex
     every = {

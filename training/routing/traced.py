@@ -36,6 +36,8 @@ Array = np.ndarray
 _MARGIN = 12.0  # px around the drawing
 _LARGEST = 1000.0  # px; a page is cut to this, so that tracing stays quick
 _WIDEST = 9.0  # px; wider pens are scanned at a lower resolution
+_args: argparse.Namespace  # of a process that makes pages, and its
+_library: Library
 _SAVED = 500  # tries between two writings of the file
 _KINDS = (0.15, 0.25, 0.6)  # shares of ideal, inked and scanned pages
 MOST_FALSE = 0.3  # of the length of all branches: more than this that nobody drew is no drawing

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...arrays.two_clusters import finer_pen
 from ...settings import Settings
 from ...values import PlanarGraph
 from ..evidence import Evidence
@@ -37,7 +38,8 @@ def remove_stubs(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> 
         np.bincount(stroke[half[some] >> 1], minlength=graph.branch_count) > 0
         for some in (ends, degree == 1)
     )
-    pen = float(np.median(graph.widths))
+    assert graph.widths is not None, "stubs are looked for in a measured graph"
+    pen = float(np.median(finer_pen(graph.widths)))
     shortest = np.where(loose, LIMITS.stub_tip, LIMITS.stub_between) * settings.min_length * pen
     stub = (hangs & (length < shortest))[stroke]
     return join(select(graph, ~stub)) if stub.any() else graph

@@ -75,6 +75,8 @@ def features(graph: PlanarGraph, evidence: Evidence) -> Array:
     bright = sample(value, graph.points).astype(np.float64)
     mean = means(graph, bright)
     least, most = (how.reduceat(bright, graph.offsets[:-1]) for how in (np.minimum, np.maximum))
+    assert maps.half_width is not None, "it is asked only what the network saw"
+    assert maps.solid is not None
     width = 2 * means(graph, sample(maps.half_width, graph.points)) / pen_width
     solid = means(graph, sample(maps.solid, graph.points))
     chord = np.hypot(*(graph.vertices[graph.ends[:, 0]] - graph.vertices[graph.ends[:, 1]]).T)
