@@ -39,10 +39,10 @@ def mark_lifts(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> Pl
     """Cut every branch where the pen may have been lifted.
 
     Reads: the final, measured lines, the page and all its maps.
-    Promises: vertices of degree two, each with its clues; no line moves. Without weights or
-    without a page the graph stays.
+    Promises: vertices of degree two, each with its clues; no line moves. Without weights, without
+    a page, or if strokes run through all corners, the graph stays.
     """
-    if evidence.scan is None or not available():
+    if evidence.scan is None or settings.corners <= -1.0 or not available():
         return graph
     cut, seen = cut_at_lifts(graph, evidence.scan, evidence.maps)
     return replace(cut, clues=clues(seen))

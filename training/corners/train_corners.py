@@ -26,7 +26,7 @@ Array = np.ndarray
 Tensor = torch.Tensor
 
 CLUES = 8  # numbers that are kept of each corner
-_SEE, _JUDGE = (32,), (24,)  # widths of the hidden layers
+_SEE, _JUDGE = (48,), (24,)  # widths of the hidden layers
 _PAGES = 24  # pages of a batch
 _DECIDED = 0.3  # share of the pages on which a user has decided some corners
 
@@ -101,7 +101,7 @@ def train(data: Corners, held: Corners, steps: int, seed: int, dropout: float) -
     spread = evidence.std(0).clamp(min=0.02)
     model = Lifts(evidence.mean(0), spread, dropout)
     rate = 2e-3
-    optimizer = torch.optim.AdamW(model.parameters(), lr=rate, weight_decay=0.05)
+    optimizer = torch.optim.AdamW(model.parameters(), lr=rate, weight_decay=0.1)
     plan = torch.optim.lr_scheduler.OneCycleLR(optimizer, rate, total_steps=steps)
     order = np.argsort(data.page, kind="stable")
     bounds = np.searchsorted(data.page[order], np.arange(len(data.habit) + 1))
@@ -191,7 +191,7 @@ def main(argv: Sequence[str] | None = None) -> None:
     parser.add_argument("--jobs", type=int, default=1, help="parallel processes")
     parser.add_argument("--steps", type=int, default=500)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--dropout", type=float, default=0.25)
+    parser.add_argument("--dropout", type=float, default=0.3)
     parser.add_argument("--out", type=Path, default=WEIGHTS)
     args = parser.parse_args(argv)
     lineage.note_run(args.run, args, torch=torch.__version__)
