@@ -150,6 +150,13 @@ class Settings:
         tip="Don't trace what lies beyond the sheet in a photograph: cloth, a desk, a finger",
         off="trace what lies beyond the sheet in a photograph too",
     )
+    rules: bool = _switch(
+        True,
+        group=WHAT,
+        label="Leave Out Rules",
+        tip="Don't trace the printed lines of ruled and squared paper",
+        off="trace the printed lines of ruled and squared paper too",
+    )
     screentone: bool = _switch(
         True,
         group=WHAT,

@@ -16,6 +16,11 @@ _BLOCK = 8  # px; paper is estimated on a grid of such blocks
 
 
 def flatten_paper(gray: Array) -> Array:
+    """The ink of a page of dark lines: see `flattened`."""
+    return flattened(gray)[0]
+
+
+def flattened(gray: Array, rules: bool = True) -> tuple[Array, bool]:
     """Take paper, shading, rules and grain out of a page of dark lines.
 
     Two passes: the lightest spots give a first guess of the paper; what that guess calls bare
@@ -24,9 +29,11 @@ def flatten_paper(gray: Array) -> Array:
 
     Args:
         gray: (H, W) float32 luminance in [0, 1]; 0 = black.
+        rules: whether printed rules and grids go.
 
     Returns:
-        ink, (H, W) float32 in [0, 1]: 0 on paper, about 1 on a full pen stroke, anti-aliased.
+        ink, (H, W) float32 in [0, 1]: 0 on paper, about 1 on a full pen stroke, anti-aliased; and
+        whether the page was ruled.
     """
     gray = np.ascontiguousarray(gray, np.float32)
     # In place wherever it can be: a page of 8192 px has 256 MiB in every such array.
@@ -41,12 +48,15 @@ def flatten_paper(gray: Array) -> Array:
     known = share > 0.1
     mean = _smooth_fill(_to_grid(rough * bare) / np.maximum(share, 1e-3), known)
     darkness = np.subtract(rough, _from_grid(mean, gray.shape), out=rough)
-    darkness = without_rules(darkness)
+    bare_page = without_rules(darkness) if rules else darkness
+    ruled = bare_page is not darkness
+    darkness = bare_page
+    del bare_page
     pen = _pen_level(darkness)
     _gate(darkness, bare, pen)
     del bare
     np.divide(darkness, _full_ink(darkness, pen), out=darkness)
-    return np.minimum(darkness, 1.0, out=darkness)
+    return np.minimum(darkness, 1.0, out=darkness), ruled
 
 
 def _light_paper(gray: Array) -> Array:
