@@ -150,6 +150,13 @@ class Settings:
         tip="Don't trace what lies beyond the sheet in a photograph: cloth, a desk, a finger",
         off="trace what lies beyond the sheet in a photograph too",
     )
+    rules: bool = _switch(
+        True,
+        group=WHAT,
+        label="Leave Out Rules",
+        tip="Don't trace the printed lines of ruled and squared paper",
+        off="trace the printed lines of ruled and squared paper too",
+    )
     screentone: bool = _switch(
         True,
         group=WHAT,
@@ -202,13 +209,13 @@ class Settings:
         more="Corners stay",
     )
     corners: float = _number(
-        0.0,
+        -1.0,
         -1.0,
         1.0,
         group=CLEAN,
         label="Pen Lifts",
-        tip="Where strokes end though only two lines meet: 0 where it looks as if the pen was "
-        "lifted, -1 nowhere, 1 wherever it may have been",
+        tip="Where strokes end though only two lines meet: -1 nowhere, 0 where it looks as if the "
+        "pen was lifted, 1 wherever it may have been",
         more="See [corners](junctions.md#corners)",
     )
     provider: str = _one_of(

@@ -219,4 +219,5 @@ def _numbered(values: Array, count: int, what: str) -> None:
 
 
 def _is_number(value: object) -> bool:
-    return type(value) in (int, float) and isfinite(value)
+    # A bool is an int to isinstance, and no number here.
+    return isinstance(value, (int, float)) and type(value) is not bool and isfinite(value)

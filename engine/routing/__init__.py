@@ -40,10 +40,9 @@ def route(graph: PlanarGraph, settings: Settings, fixed: Fixed | None = None) ->
     score = np.concatenate([_at_junctions(graph, pairs[:crossing], fixed, settings), turns])
     alternatives = ranked_alternatives(graph, score, fixed)
 
-    chosen = [fixed.get(j, ways[0].pairs) for j, ways in enumerate(alternatives)]
-    chosen = np.array(
-        [pair for ways in chosen[: len(graph.junctions)] for pair in ways], np.int32
-    ).reshape(-1, 2)
+    best = [fixed.get(j, ways[0].pairs) for j, ways in enumerate(alternatives)]
+    joined = [pair for ways in best[: len(graph.junctions)] for pair in ways]
+    chosen = np.array(joined, np.int32).reshape(-1, 2)
     on = lifting.goes_on(turns, settings.corners)
     for place, ways in fixed.items():
         if place >= len(graph.junctions):

@@ -14,11 +14,11 @@ import numpy as np
 from ..settings import Settings
 from ..values import Array, Scan
 
-_CLEAR = 0.5  # ink
+_CLEAR = 0.7  # ink; high, so that dots that nearly touch are apart
 _DOT = 2.0  # pen widths, or px where that is more; a larger piece of ink is no dot
 _FEWEST = 40  # dots of a lattice
 _ALIKE = 0.2  # how much farther the fourth neighbour of a dot may be than the first, as a share
-_AROUND = 1.2  # distances between dots that the tone reaches beyond them
+_AROUND = 1.6  # distances between dots that the tone reaches beyond those inside it: its corners
 _FARTHEST = 24.0  # px between the dots of a tone
 
 

@@ -125,6 +125,8 @@ def _at_ends(graph: PlanarGraph, mean: Array, length: Array, evidence: Evidence)
         np.maximum.at(bright, one, mean[other >> 1])
         np.maximum.at(long, one, length[other >> 1])
     own = np.repeat(mean, 2) / np.maximum(np.where(bright > 0, bright, np.repeat(mean, 2)), 1e-3)
+    assert evidence.seen_junctions is not None
+    assert evidence.seen_ends is not None
     place = graph.vertices[vertex]
     return np.column_stack(
         [
