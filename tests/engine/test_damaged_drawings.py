@@ -259,7 +259,7 @@ def test_a_damaged_drawing_is_refused_or_sound(form, drawing, document, tmp_path
     text = drawing_json.dumps(drawing) if form == "json" else svg.dumps(drawing)
     read = drawing_json.read if form == "json" else svg.read
     places = [f"{a}.{b}" for a in ("graph", "routing", "strokes", "fills") for b in document[a]]
-    places = [p for p in places if p != "routing.alternatives" and p != "graph.strength"]
+    places = [p for p in places if "dtype" in (document[p.split(".")[0]][p.split(".")[1]] or ())]
     for count in range(MUTATIONS):
         if form == "json" and count % 2:
             place = str(random.choice(places))
