@@ -42,7 +42,7 @@ def folded(net: CenterlineNet) -> CenterlineNet:
     """The network with its normalisation folded into the weights, and these rounded to 16 bit."""
     net = copy.deepcopy(net).eval()
     for layer in net.modules():
-        if isinstance(layer, nn.Sequential) and isinstance(layer[1], nn.BatchNorm2d):
+        if isinstance(layer, nn.Sequential) and isinstance(layer[-2], nn.BatchNorm2d):
             layer[0] = fuse_conv_bn_eval(layer[0], layer[1])
             layer[1] = nn.Identity()
     for weight in net.parameters():

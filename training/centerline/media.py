@@ -19,6 +19,7 @@ from .geometry import Array, Rng, Strokes
 STEP = 0.5  # px between samples along a stroke
 MARGIN = 30  # px around the page in which ink still matters
 _FAR = 99.0
+WIDEST = 32.0  # px of half-width
 
 
 @dataclass(frozen=True)
@@ -329,6 +330,12 @@ MEDIA: dict[str, Medium] = {
     ),
     "brushpen": Medium((2.0, 9.0), (0.3, 0.7), (0.1, 0.7), ragged=(0.05, 0.3)),
 }
+# Lines that no pen drew on paper: one bit without any grey, and crisp ones with smooth edges.
+_EVEN = {"swell": (0.0, 0.0), "density": (1.0, 1.0), "fade": (0.0, 0.0), "ragged": (0.0, 0.0)}
+DIGITAL: dict[str, Medium] = {
+    "one bit": Medium((0.9, 4.3), soft=(1e-3, 1e-3), skip=0.0, **_EVEN),
+    "crisp": Medium((0.9, 6.0), soft=(0.5, 0.5), skip=0.0, **_EVEN),
+}
 
 
 def draw(
@@ -351,7 +358,7 @@ def draw(
     if rng.random() < medium.skip:
         left, thinner = _skips(rng, samples)
         half = half * thinner
-    half = np.clip(half, 0.45, 10.5)
+    half = np.clip(half, 0.45, WIDEST)
     layers = [np.ones(len(samples), bool)]
     if rng.random() < medium.overlap:
         second = rng.integers(0, 2, samples.stroke.max() + 1).astype(bool)[samples.stroke]
