@@ -6,7 +6,7 @@ CONTEXT px beyond its tile, as far as its answer depends on, so there are no sea
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
 import cv2
@@ -166,16 +166,18 @@ def _best_cut(active: Array) -> tuple[float, int]:
 
 def look(
     ink: Array,
-    infer: Callable[[Array], Array],
-    maps: list[Array | None],
+    infer: Callable[[Array], Iterable[Array]],
+    maps: Sequence[Array | None],
     tick: Callable[[float], None],
 ) -> None:
     """Run a network over all inked blocks of a page and write its answers into the maps.
 
     Args:
         ink: (H, W) float32.
-        infer: (h, w) float32 window -> (C, h, w) float32; any size.
-        maps: C arrays (H, W) float32, zero, and left so on white paper; None = not wanted.
+        infer: (h, w) float32 window of any size -> its maps, (h, w) float32; those at half the
+            resolution are (h / 2, w / 2), rounded up.
+        maps: as many arrays (H, W) or (H / 2, W / 2), float32, zero, and left so on white paper;
+            None = not wanted.
         tick: called with the fraction that is done; what it raises passes through.
     """
     active = active_blocks(ink)
@@ -187,13 +189,18 @@ def look(
         rows, columns = tile.window(active, *ink.shape)
         answers = infer(np.ascontiguousarray(ink[rows, columns]))
         inside = ink[tile.top : tile.bottom, tile.left : tile.right].shape
-        y, x = tile.top - rows.start, tile.left - columns.start
         row = np.arange(tile.top, tile.top + inside[0]) // BLOCK
         column = np.arange(tile.left, tile.left + inside[1]) // BLOCK
         inked = active[row[:, None], column]
         for answer, target in zip(answers, maps, strict=True):
             if target is not None:
-                seen = answer[y : y + inside[0], x : x + inside[1]]
-                target[tile.top : tile.bottom, tile.left : tile.right] = seen * inked
+                step = 1 if target.shape == ink.shape else 2  # tiles and windows begin at even px
+                y, x = (tile.top - rows.start) // step, (tile.left - columns.start) // step
+                place = target[
+                    tile.top // step : -(-tile.bottom // step),
+                    tile.left // step : -(-tile.right // step),
+                ]
+                seen = answer[y : y + place.shape[0], x : x + place.shape[1]]
+                place[:] = seen * inked[::step, ::step]
         done += tile.area
     tick(1.0)

@@ -11,7 +11,7 @@ import pytest
 torch = pytest.importorskip("torch")
 
 from involute.engine.centerline import backends, onnx_torch  # noqa: E402
-from involute.engine.centerline.backends import load  # noqa: E402
+from involute.engine.centerline.backends import load, load_both  # noqa: E402
 from involute.training.centerline import (  # noqa: E402
     geometry,
     losses,
@@ -223,7 +223,11 @@ def test_opencv_and_both_torch_forms_agree(tmp_path):
     ink = np.random.default_rng(0).random((5 * STRIDE, 3 * STRIDE), np.float32)
     with torch.inference_mode():
         given = torch.from_numpy(ink[None, None])
-        read = onnx_torch.module(out.read_bytes())(given)
-        assert (read - Exported(folded(net))(given)).abs().max() < 1e-5
+        read, features = onnx_torch.module(out.read_bytes()).all_of(given)
+        wanted = Exported(folded(net))(given)
+        assert (read - wanted[0]).abs().max() < 1e-5
+        assert (features - wanted[1]).abs().max() < 1e-4
+    assert features.shape[1:] == (4, 2.5 * STRIDE, 1.5 * STRIDE)
     np.testing.assert_allclose(load(out, "cpu")(ink), read[0].numpy(), atol=1e-3)
-    np.testing.assert_allclose(backends._torch(out, "cpu")(ink), read[0].numpy(), atol=1e-3)
+    np.testing.assert_allclose(backends._torch(out, "cpu")(ink, 1)[0], read[0].numpy(), atol=1e-3)
+    np.testing.assert_allclose(load_both(out, "cpu")(ink)[1], features[0].numpy(), atol=1e-3)

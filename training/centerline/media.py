@@ -20,6 +20,7 @@ STEP = 0.5  # px between samples along a stroke
 MARGIN = 30  # px around the page in which ink still matters
 _FAR = 99.0
 WIDEST = 32.0  # px of half-width
+NUDGE = 0.013  # px; where a line of one bit would end just on the centres of pixels
 
 
 @dataclass(frozen=True)
@@ -213,8 +214,9 @@ class Medium:
     width: typical full width. swell: width change with pressure. taper: how thin ends become
     (1 = blunt). nib: flatness of a broad nib. density: ink of a full stroke. fade: change of the
     density with pressure. grain: how much the paper's tooth shows; tooth: which noise. ragged:
-    roughness of the edge in px. soft: softness of the edge in px. rim: darker edges of wet ink.
-    overlap: strokes of one drawing darken each other. skip: how likely there are gaps.
+    roughness of the edge in px. soft: softness of the edge in px, 0 = without any grey. rim: darker
+    edges of wet ink. overlap: strokes of one drawing darken each other. skip: how likely there are
+    gaps.
     """
 
     width: tuple[float, float]
@@ -333,7 +335,7 @@ MEDIA: dict[str, Medium] = {
 # Lines that no pen drew on paper: one bit without any grey, and crisp ones with smooth edges.
 _EVEN = {"swell": (0.0, 0.0), "density": (1.0, 1.0), "fade": (0.0, 0.0), "ragged": (0.0, 0.0)}
 DIGITAL: dict[str, Medium] = {
-    "one bit": Medium((0.9, 4.3), soft=(1e-3, 1e-3), skip=0.0, **_EVEN),
+    "one bit": Medium((0.9, 4.3), soft=(0.0, 0.0), skip=0.0, **_EVEN),
     "crisp": Medium((0.9, 6.0), soft=(0.5, 0.5), skip=0.0, **_EVEN),
 }
 
@@ -358,12 +360,13 @@ def draw(
     if rng.random() < medium.skip:
         left, thinner = _skips(rng, samples)
         half = half * thinner
-    half = np.clip(half, 0.45, WIDEST)
     layers = [np.ones(len(samples), bool)]
     if rng.random() < medium.overlap:
         second = rng.integers(0, 2, samples.stroke.max() + 1).astype(bool)[samples.stroke]
         layers = [second, ~second]
     soft = rng.uniform(*medium.soft)
+    # Without any grey, a line thinner than a pixel would vanish between the rows.
+    half = np.clip(half, 0.45 if soft else 0.505, WIDEST)
     density, fade = rng.uniform(*medium.density), rng.uniform(*medium.fade)
     ragged, rim = rng.uniform(*medium.ragged), rng.uniform(*medium.rim)
     grain = rng.uniform(*medium.grain)
@@ -377,7 +380,8 @@ def draw(
             continue
         edge, owner = nearest(samples.take(ids), half[ids], size, soft + 1.5 * ragged + 0.6)
         mine = np.clip(flow[ids][owner], 0.0, 1).astype(np.float32)
-        cover = np.clip(0.5 - (edge + ragged * edge_noise) / (2 * soft), 0, 1)
+        edge = edge + ragged * edge_noise
+        cover = np.clip(0.5 - edge / (2 * soft), 0, 1) if soft else edge <= 0
         if rim:
             mine = mine * (1 - rim + rim * np.exp(-np.abs(edge + 1.0)))
         if grain:

@@ -16,7 +16,7 @@ from involute.engine.scan import flatten_paper
 from . import rough
 from .geometry import Array, Library, Rng, Strokes, broken, invented, true_drawing
 from .marks import mark, printed
-from .media import DIGITAL, MEDIA, Medium, Samples, draw, line_spacing, noise, sample
+from .media import DIGITAL, MEDIA, NUDGE, Medium, Samples, draw, line_spacing, noise, sample
 from .paper import clean, paper, scan, shadow
 from .targets import MAX_HALF_WIDTH, Targets, ridge, targets
 from .tone import screentone
@@ -24,7 +24,7 @@ from .wear import dust
 
 _MIN_SPACING = 2.7  # px; denser hatching is a tone, not lines
 _SEEN_OVER = 49  # samples of half a px
-_HIDDEN_OVER = 81  # samples; what lies under a wide pen for longer can't be followed
+_HIDDEN_OVER = 121  # samples; what lies under a wide pen for longer can't be followed
 # Channels of a page, uint8: 255 * map; half-width and apart are 255 * px / MAX_HALF_WIDTH.
 CHANNELS = ("ink", "centerline", "junctions", "endpoints", "half_width", "solid")
 CHANNELS += ("doubled", "apart", "clean")
@@ -206,7 +206,7 @@ def _drawn(
     strength: float = 1.0,
 ) -> Layer | None:
     """Strokes with a pen that suits them, some of them dashed; None where nothing can be seen."""
-    strokes = _sane(strokes, size)
+    strokes = [stroke + NUDGE for stroke in _sane(strokes, size)]
     samples = sample(strokes, size)
     spacing = line_spacing(samples, size)
     if len(samples) < 2 or spacing < _MIN_SPACING:
@@ -303,7 +303,7 @@ def _visible(points: Array, ink: Array) -> Array:
 
 
 def _hidden(layer: Layer, layers: list[Layer]) -> Array:
-    """Which samples of a layer lie for 40 px and more inside the ink of a much wider pen, (N,)."""
+    """Which samples of a layer lie for 60 px and more inside the ink of a much wider pen, (N,)."""
     hidden = np.zeros(len(layer.samples), bool)
     own = float(np.median(layer.half))
     for other in layers:
@@ -321,7 +321,8 @@ def _at(mask: Array, points: Array) -> Array:
 
 def _over(values: Array, count: int) -> Array:
     """The running mean of (N,) values over `count` neighbours."""
-    return np.convolve(values, np.full(count, 1 / count), "same")[: len(values)]
+    around = np.pad(values.astype(np.float64), count // 2, mode="edge")
+    return np.convolve(around, np.full(count, 1 / count), "valid")
 
 
 def _solids(rng: Rng, size: int) -> Array:
