@@ -5,36 +5,16 @@ import handed to it: Blender for .blend files, the benchmark's metrics for `eval
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from .engine import Drawing
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run the command line; see `engine.cli.main`."""
-    from .engine import cli
+    """Run the command line; see `command.cli.main`."""
+    from .command import cli
+    from .operators.blend_file import BLEND
 
-    return cli.main(
-        argv,
-        writers={".blend": _write_blend},
-        evaluate=_evaluate,
-        sequence_writers={".blend": _write_sequence},
-    )
-
-
-def _write_blend(drawings: Sequence[tuple[str, Drawing]], path: Path) -> None:
-    from .operators import blend_file
-
-    blend_file.write(drawings, path)
-
-
-def _write_sequence(name: str, frames: Iterable[tuple[int, Drawing]], path: Path) -> None:
-    from .operators import blend_file
-
-    blend_file.write_sequence(name, frames, path)
+    return cli.main(argv, formats=[BLEND], evaluate=_evaluate)
 
 
 def _evaluate(prediction: Path, truth: Path) -> Mapping[str, float]:

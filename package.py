@@ -20,7 +20,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent
 WHEELS = ROOT / "wheels"
-SHIPPED = ("LICENSE", "__init__.py", "engine", "operators", "ui")
+SHIPPED = ("LICENSE", "__init__.py", "command", "engine", "operators", "ui")
 PLATFORMS = {  # Blender's name: (part of the OpenCV wheel's file name, pip's --platform)
     "linux-x64": ("manylinux_2_28_x86_64", "manylinux_2_28_x86_64"),
     "linux-arm64": ("manylinux_2_28_aarch64", "manylinux_2_28_aarch64"),

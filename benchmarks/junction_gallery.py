@@ -18,7 +18,7 @@ from involute.engine import Settings
 from involute.engine.graph import build_graph
 from involute.engine.values import LineMaps, PlanarGraph
 
-from .graph import draw
+from .graph_stage import draw
 
 Array = np.ndarray
 

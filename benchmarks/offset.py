@@ -19,7 +19,7 @@ from pathlib import Path
 import numpy as np
 from scipy.spatial import cKDTree
 
-from .drawings import DATA, Page, pages
+from .judged_pages import DATA, Page, pages
 from .methods import METHODS
 from .metrics import Strokes, chamfer
 from .quality import one_thread

@@ -21,7 +21,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .drawings import DATA, Page, pages
+from .judged_pages import DATA, Page, pages
 from .methods import METHODS
 from .metrics import Score, evaluate, summarize
 from .tables import markdown

@@ -6,7 +6,7 @@ A page of N px is laid out of the white pages of the benchmark side by side, so 
 with the area, as it does in a larger drawing by the same hand. Every method and size runs in a
 process of its own, once to warm up (that loads the networks) and then `--repeat` times; the median
 counts. Memory is the peak of the process, less what it held before the trace. Where bpy is
-installed, the times of `benchmarks.blender` follow: writing, rerouting, the overlay.
+installed, the times of `benchmarks.blender_costs` follow: writing, rerouting, the overlay.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 
-from .drawings import DATA, pages
+from .judged_pages import DATA, pages
 from .methods import METHODS
 from .tables import markdown
 
@@ -163,7 +163,7 @@ def report(timings: list[Timing]) -> str:
 
 
 def _in_blender() -> str:
-    from .blender import report
+    from .blender_costs import report
 
     return report()
 

@@ -12,7 +12,6 @@ if TYPE_CHECKING:
     from .drawing import Drawing
     from .errors import Cancelled, InvoluteError
     from .pipeline import vectorize
-    from .sequence import trace_sequence
     from .settings import Settings
     from .values import Junction, Stroke
 
@@ -23,7 +22,6 @@ _HOMES = {
     "Junction": "values",
     "Settings": "settings",
     "Stroke": "values",
-    "trace_sequence": "sequence",
     "vectorize": "pipeline",
 }
 __all__ = [
@@ -33,7 +31,6 @@ __all__ = [
     "Junction",
     "Settings",
     "Stroke",
-    "trace_sequence",
     "vectorize",
 ]
 

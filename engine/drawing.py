@@ -10,7 +10,6 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from os import PathLike
-from typing import Any
 
 import numpy as np
 
@@ -39,6 +38,8 @@ class Drawing:
     scale: input pixels per working pixel, the unit in which routing judges lengths.
     aligned: False when the page was to be aligned and had nothing to align by; not kept in files.
     region_colors: (R, 3) uint8 sRGB of `regions`; None = all are white.
+    page: what all strokes share, for rerouting; None = found from the graph when first needed. Not
+        kept in files.
     """
 
     graph: PlanarGraph
@@ -51,6 +52,7 @@ class Drawing:
     scale: float = 1.0
     aligned: bool = True
     region_colors: Array | None = None
+    page: Page | None = field(default=None, repr=False)
 
     @classmethod
     def from_routing(
@@ -76,18 +78,18 @@ class Drawing:
             settings=settings,
             scale=float(scan.scale),
             aligned=scan.aligned,
+            page=page,
         )
         if settings.regions and scan.color is not None:
-            from .region_colors import region_colors
+            from .fills.region_colors import region_colors
 
             colors = region_colors(drawing.regions, graph, scan)
             drawing = replace(drawing, region_colors=colors)
-        vars(drawing)["_page"] = page
         return drawing
 
     def with_seconds(self, seconds: Mapping[str, float]) -> Drawing:
         """The same drawing with the time that each stage took."""
-        return self._replaced(seconds=dict(seconds))
+        return replace(self, seconds=dict(seconds))
 
     @cached_property
     def junctions(self) -> tuple[Junction, ...]:
@@ -114,7 +116,7 @@ class Drawing:
     @cached_property
     def regions(self) -> tuple[Fill, ...]:
         """The closed regions between the lines, the largest first; specks are left out."""
-        from .faces import closed_regions
+        from .fills.faces import closed_regions
 
         if self.graph.branch_count == 0:
             return ()
@@ -161,13 +163,13 @@ class Drawing:
             partner: (2B,) int32 and locked: (J,) bool, as in `Routing`.
         """
         drawing = self._with_partner(partner)
-        return drawing._replaced(routing=replace(drawing.routing, locked=locked))
+        return replace(drawing, routing=replace(drawing.routing, locked=locked))
 
     def ask_again(self) -> Drawing:
         """Route the junctions that are not locked anew, given those that are."""
         fixed = {j.index: j.pairs for j in self.junctions if j.locked}
         routing = route(_scaled(self.graph, 1 / self.scale), self.settings, fixed)
-        return self._with_partner(routing.partner)._replaced(routing=routing)
+        return replace(self._with_partner(routing.partner), routing=routing)
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write the drawing; the suffix says how (.json keeps everything)."""
@@ -184,14 +186,7 @@ class Drawing:
 
     @cached_property
     def _page(self) -> Page:
-        return Page.of(self.graph, self.settings)
-
-    def _replaced(self, **changes: Any) -> Drawing:
-        """A changed copy, which inherits what all strokes of the page share."""
-        changed = replace(self, **changes)
-        if "_page" in vars(self):
-            vars(changed)["_page"] = self._page
-        return changed
+        return self.page or Page.of(self.graph, self.settings)
 
     def _with_locked(self, junctions: Iterable[int], value: bool) -> Drawing:
         locked = self.routing.locked.copy()
@@ -199,7 +194,7 @@ class Drawing:
             if not 0 <= junction < len(locked):
                 raise InvoluteError(f"There is no junction {junction}; there are {len(locked)}.")
             locked[junction] = value
-        return self._replaced(routing=replace(self.routing, locked=locked))
+        return replace(self, routing=replace(self.routing, locked=locked))
 
     def _with_partner(self, partner: Array) -> Drawing:
         """Walk anew what the changed half-branches belong to; keep all other strokes."""
@@ -212,7 +207,7 @@ class Drawing:
         made = build(self._page, walk(partner, branches))
         strokes = sorted([*kept, *made], key=lambda s: int(s.branches.min()) >> 1)
         routing = replace(self.routing, partner=np.asarray(partner, np.int32))
-        return self._replaced(strokes=tuple(strokes), routing=routing)
+        return replace(self, strokes=tuple(strokes), routing=routing, page=self._page)
 
 
 def _scaled(graph: PlanarGraph, scale: float) -> PlanarGraph:

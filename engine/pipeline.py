@@ -16,13 +16,13 @@ import numpy as np
 from .centerline import provider_for
 from .drawing import Drawing
 from .errors import Cancelled
+from .fills.solids import split_solids
 from .graph import build_graph, measure, sweep, trim, without_pencil
-from .registration import set_aside
+from .ink.unmixing import without_inks
 from .routing import route
 from .scan import read_scan
+from .scan.registration import set_aside
 from .settings import Settings
-from .solids import split_solids
-from .unmixing import without_inks
 
 Progress = Callable[[str, float], None]
 Source = str | PathLike[str] | np.ndarray

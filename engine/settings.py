@@ -1,101 +1,271 @@
-"""Everything a user can choose about one trace, with defaults that suit a scanned ink drawing."""
+"""Everything a user can choose about one trace, with defaults that suit a scanned ink drawing.
+
+A setting is declared once, as a field of `Settings`; its check, its option on the command line, its
+property and place in the sidebar and its row in the manual all follow from that.
+"""
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
-from typing import Any, Literal
+from dataclasses import asdict, dataclass, field, fields
+from itertools import chain
+from math import isfinite
+from numbers import Integral, Real
+from typing import Any
 
 from .errors import InvoluteError
 
-Polarity = Literal["auto", "dark", "light"]
-Provider = Literal["auto", "network", "classical", "given"]
-Router = Literal["auto", "network", "geometric"]
-Device = Literal["auto", "cpu", "gpu"]
-Curve = Literal["polyline", "bezier"]
-
+WHAT, CLEAN, POINTS = GROUPS = ("What the Drawing Is", "How Clean", "How Many Points")
 INKS = ("red", "orange", "yellow", "green", "cyan", "blue", "purple", "pink", "gray")
 
-_CHOICES: dict[str, tuple[str, ...]] = {
-    "polarity": ("auto", "dark", "light"),
-    "provider": ("auto", "network", "classical", "given"),
-    "router": ("auto", "network", "geometric"),
-    "device": ("auto", "cpu", "gpu"),
-    "curve": ("polyline", "bezier"),
-}
-_RANGES: dict[str, tuple[float, float]] = {
-    "pen_width": (0.0, 500.0),
-    "min_length": (0.0, 100.0),
-    "smoothing": (0.0, 1.0),
-    "tolerance": (0.0, 50.0),
-}
+
+@dataclass(frozen=True)
+class Choice:
+    """One value of a setting with a few: as it is written, as it is shown, and what it means."""
+
+    value: str
+    label: str
+    tip: str
+
+
+@dataclass(frozen=True, kw_only=True)
+class About:
+    """What is to be known of a setting, wherever it is shown.
+
+    kind: bool, int, float, str (one of `choices`) or tuple (any of them).
+    group: the part of the sidebar and of the manual that it stands in, one of `GROUPS`.
+    label: its name in the sidebar.
+    tip: what it does, for people; a phrase that begins with a capital and ends without a dot.
+    off: what `--no-...` does, for a switch that is on by default.
+    more: what the manual adds.
+    low, high: the least and the most of a number; soft_high: how far a slider goes.
+    unit: "px" of the input, "pens" (typical widths of a line), "share" (0 to 1), or "".
+    """
+
+    kind: type
+    group: str
+    label: str
+    tip: str
+    off: str = ""
+    more: str = ""
+    choices: tuple[Choice, ...] = ()
+    low: float = 0.0
+    high: float = 1.0
+    soft_high: float | None = None
+    unit: str = ""
+
+    @property
+    def values(self) -> tuple[str, ...]:
+        return tuple(choice.value for choice in self.choices)
+
+
+def _declared(default: Any, kind: type, **about: Any) -> Any:
+    return field(default=default, metadata={"about": About(kind=kind, **about)})
+
+
+def _switch(default: bool, **about: Any) -> Any:
+    return _declared(default, bool, **about)
+
+
+def _number(default: float, low: float, high: float, **about: Any) -> Any:
+    """A whole number when the default is one."""
+    return _declared(default, type(default), low=low, high=high, **about)
+
+
+def _one_of(*choices: tuple[str, str, str], **about: Any) -> Any:
+    """One of a few words; the first is the default."""
+    options = tuple(Choice(*choice) for choice in choices)
+    return _declared(options[0].value, str, choices=options, **about)
+
+
+def _any_of(*choices: tuple[str, str, str], **about: Any) -> Any:
+    """Any of a few words; none by default."""
+    return _declared((), tuple, choices=tuple(Choice(*choice) for choice in choices), **about)
 
 
 @dataclass(frozen=True)
 class Settings:
     """Settings of one trace; all lengths in input pixels unless stated otherwise.
 
-    What the drawing is
-        polarity: which side is ink; "auto" looks at the picture ("dark" = dark lines on light).
-        pen_width: typical width of a line; 0 = measured from the drawing.
-        provider: what makes the centerline: "network", "classical", "given" (the input already is
-            a centerline image, white on black), or "auto" (the network when its weights are there).
-        solids: take solid black areas out as fills instead of tracing them.
-        inks: give the strokes the colour of their ink, and grey to pencil under ink; off = all
-            strokes are black.
-        ignore_inks: inks that are not traced, such as a blue construction pencil; see `INKS`.
-            "gray" is pencil under ink.
-        marks: leave out scan borders, punched holes and registration marks.
-        regions: fill the closed regions between the lines, below them, with white or with what
-            was painted there.
-        align: where the punched holes (or marks) shall lie, in px of the input; the page is turned
-            and moved to that; see `registration.anchors_of`. Empty = the page stays as it lies.
-
-    How clean
-        min_length: strokes shorter than this many pen widths that hang on nothing are dropped, and
-            those up to twice as long that hang on other lines.
-        smoothing: 0 keeps every wobble, 1 is very smooth.
-        router: what pairs the half-branches: "network", "geometric" or "auto".
-
-    How many points
-        tolerance: how far a simplified stroke may stray from the traced line.
-        curve: "polyline" or "bezier".
-
-    device: where the networks run; "auto" = a GPU when torch finds one, else the CPU.
+    align: where the punched holes (or marks) shall lie, in px of the input; the page is turned and
+        moved to that; see `registration.anchors_of`. Empty = the page stays as it lies. It is
+        measured, never typed in, and so has no option of its own.
     """
 
-    polarity: Polarity = "auto"
-    pen_width: float = 0.0
-    provider: Provider = "auto"
-    solids: bool = True
-    inks: bool = True
-    ignore_inks: tuple[str, ...] = ()
-    marks: bool = True
-    regions: bool = False
+    polarity: str = _one_of(
+        ("auto", "Automatic", "Find out from the picture"),
+        ("dark", "Dark on Light", "Ink or pencil on paper"),
+        ("light", "Light on Dark", "Chalk, blueprints, inverted scans"),
+        group=WHAT,
+        label="Lines",
+        tip="Which side of the picture is ink",
+    )
+    pen_width: float = _number(
+        0.0,
+        0.0,
+        500.0,
+        soft_high=50.0,
+        unit="px",
+        group=WHAT,
+        label="Pen Width",
+        tip="Usual width of a line in pixels of the picture; 0 measures it",
+        more="Set it when the page holds a few thin lines beside large black areas",
+    )
+    inks: bool = _switch(
+        True,
+        group=WHAT,
+        label="Ink Colors",
+        tip="Give every ink its own layer and material; off draws all lines in black",
+        off="make all strokes black instead of the color of their ink",
+        more="Pencil under ink has a layer of its own too",
+    )
+    ignore_inks: tuple[str, ...] = _any_of(
+        *((name, name.title(), "Don't trace lines of this color") for name in INKS),
+        group=WHAT,
+        label="Ignore Inks",
+        tip="Inks that are not traced, such as a blue construction pencil",
+        more="`gray` is pencil under ink",
+    )
+    solids: bool = _switch(
+        True,
+        group=WHAT,
+        label="Solid Blacks",
+        tip="Turn areas of solid ink into fills instead of tracing them as lines",
+        off="trace solid black areas as lines too, instead of making them fills",
+    )
+    marks: bool = _switch(
+        True,
+        group=WHAT,
+        label="Leave Out Marks",
+        tip="Don't trace scan borders, punched holes and registration marks",
+        off="trace scan borders, punched holes and registration marks too",
+    )
+    regions: bool = _switch(
+        False,
+        group=WHAT,
+        label="Fill Regions",
+        tip="Fill the closed regions between the lines, on a layer below",
+        more="White, or the color that is painted there; in Blender and SVG",
+    )
     align: tuple[tuple[float, float], ...] = ()
-    min_length: float = 1.0
-    smoothing: float = 0.3
-    router: Router = "auto"
-    tolerance: float = 0.15
-    curve: Curve = "polyline"
-    device: Device = "auto"
+    min_length: float = _number(
+        1.0,
+        0.0,
+        100.0,
+        soft_high=10.0,
+        unit="pens",
+        group=CLEAN,
+        label="Specks",
+        tip="Drop lone strokes shorter than this many pen widths",
+        more="Strokes that hang on other lines are dropped up to twice that length",
+    )
+    smoothing: float = _number(
+        0.3,
+        0.0,
+        1.0,
+        unit="share",
+        group=CLEAN,
+        label="Smoothing",
+        tip="0 keeps every wobble of the hand, 1 is very smooth",
+        more="Corners stay",
+    )
+    provider: str = _one_of(
+        ("auto", "Automatic", "The trained network when it is there, else the ridge filter"),
+        ("network", "Network", "Trained on pencil, ink, chalk and bad scans"),
+        ("classical", "Ridge Filter", "No learning; for very clean lines"),
+        ("given", "Picture Is Centerlines", "Thin white lines on black, made elsewhere"),
+        group=CLEAN,
+        label="Line Finder",
+        tip="What finds the centres of the lines",
+    )
+    router: str = _one_of(
+        ("auto", "Automatic", "The trained network when it is there, else geometry"),
+        ("network", "Network", "Looks at the whole neighborhood of the junction"),
+        ("geometric", "Geometry", "Looks at direction, curvature and width only"),
+        group=CLEAN,
+        label="Junctions",
+        tip="What decides which lines continue through a junction",
+    )
+    device: str = _one_of(
+        ("auto", "Automatic", "A graphics card when one can be used, else the processor"),
+        ("cpu", "Processor", "Always works"),
+        ("gpu", "Graphics Card", "Needs PyTorch in Blender's Python"),
+        group=CLEAN,
+        label="Device",
+        tip="Where the networks run",
+        more="The processor does well",
+    )
+    curve: str = _one_of(
+        ("polyline", "Points", "Plain points, for sculpting and drawing over"),
+        ("bezier", "Bézier", "Few points with handles"),
+        group=POINTS,
+        label="Curves",
+        tip="What the strokes are made of",
+        more="Curves have less than half the points: those at bends, corners, junctions and where "
+        "the pressure changes",
+    )
+    tolerance: float = _number(
+        0.15,
+        0.0,
+        50.0,
+        soft_high=5.0,
+        unit="px",
+        group=POINTS,
+        label="Tolerance",
+        tip="How far a stroke may stray from the traced line, in pixels of the picture; "
+        "more gives fewer points",
+    )
 
     def __post_init__(self) -> None:
         # Files and command lines give lists; a setting has to be a value that can be compared.
-        object.__setattr__(self, "ignore_inks", tuple(self.ignore_inks))
-        object.__setattr__(self, "align", tuple((float(x), float(y)) for x, y in self.align))
-        for name in self.ignore_inks:
-            if name not in INKS:
-                raise InvoluteError(f"There is no ink {name!r}; choose from {', '.join(INKS)}.")
-        for name, allowed in _CHOICES.items():
-            if getattr(self, name) not in allowed:
-                raise InvoluteError(
-                    f"Setting {name} can't be {getattr(self, name)!r}; "
-                    f"choose one of {', '.join(allowed)}."
-                )
-        for name, (low, high) in _RANGES.items():
-            if not low <= getattr(self, name) <= high:
-                raise InvoluteError(f"Setting {name} must lie between {low:g} and {high:g}.")
+        object.__setattr__(self, "align", _places(self.align))
+        for name, about in ABOUT.items():
+            if about.kind is tuple and isinstance(getattr(self, name), list):
+                object.__setattr__(self, name, tuple(getattr(self, name)))
+            _check(name, about, getattr(self, name))
 
     def as_dict(self) -> dict[str, Any]:
         """The settings as plain values, for files and reports."""
         return asdict(self)
+
+
+ABOUT: dict[str, About] = {
+    setting.name: setting.metadata["about"]
+    for setting in fields(Settings)
+    if "about" in setting.metadata
+}
+DEFAULTS: dict[str, Any] = {setting.name: setting.default for setting in fields(Settings)}
+
+
+def _check(name: str, about: About, value: Any) -> None:
+    """Refuse what a setting can't be.
+
+    Raises:
+        InvoluteError: says what it can be.
+    """
+    if about.choices:
+        many = about.kind is tuple and isinstance(value, tuple)
+        for word in value if many else [value]:
+            if word not in about.values:
+                choices = ", ".join(about.values)
+                raise InvoluteError(f"Setting {name} can't be {word!r}; choose from {choices}.")
+    elif about.kind is bool:
+        if not isinstance(value, bool):
+            raise InvoluteError(f"Setting {name} must be true or false.")
+    else:
+        kind, what = (Integral, "whole number") if about.kind is int else (Real, "number")
+        if isinstance(value, bool) or not isinstance(value, kind):
+            raise InvoluteError(f"Setting {name} must be a {what}.")
+        if not about.low <= value <= about.high:
+            raise InvoluteError(
+                f"Setting {name} must lie between {about.low:g} and {about.high:g}."
+            )
+
+
+def _places(value: Any) -> tuple[tuple[float, float], ...]:
+    try:
+        places = tuple((float(x), float(y)) for x, y in value)
+    except (TypeError, ValueError):
+        raise InvoluteError("Setting align must be places (x, y).") from None
+    if not all(map(isfinite, chain(*places))):
+        raise InvoluteError("Setting align must be places (x, y) in px.")
+    return places

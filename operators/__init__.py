@@ -1,31 +1,40 @@
-"""What the user can do in Blender: one file per verb. `grease_pencil` alone touches strokes."""
+"""What the user can do in Blender: one file per verb.
+
+tracing         pictures become Grease Pencil objects
+sequences       numbered drawings become keyframes
+junctions       what is done to the junctions of a traced drawing
+view            what is looked at and where it lies on the screen; `ui` draws it
+grease_pencil   the data layer: it alone touches strokes
+blend_file, blender_command   .blend files for the command line, which Blender runs as well
+job, language   threads that Blender does not wait for; words in the user's language
+"""
 
 from __future__ import annotations
 
 from importlib import import_module
 
 _VERBS = (
-    "tracing",
-    "trace",
-    "import_scan",
-    "use_defaults",
-    "sequence",
-    "reroute",
-    "join",
-    "separate",
-    "lock",
-    "accept",
-    "ask_again",
-    "go_to_junction",
-    "preview",
-    "choose",
-    "drag_join",
+    "tracing.background",
+    "tracing.trace",
+    "tracing.import_scan",
+    "tracing.use_defaults",
+    "sequences.trace_frames",
+    "junctions.reroute",
+    "junctions.join",
+    "junctions.separate",
+    "junctions.lock",
+    "junctions.accept",
+    "junctions.ask_again",
+    "junctions.go_to_junction",
+    "junctions.preview",
+    "junctions.choose",
+    "junctions.drag_join",
 )
 
 
 def _classes() -> list[type]:
-    from .trace_settings import INVOLUTE_PG_trace_settings
-    from .view_state import INVOLUTE_PG_view
+    from .tracing.trace_settings import INVOLUTE_PG_trace_settings
+    from .view.view_state import INVOLUTE_PG_view
 
     verbs = [import_module(f".{name}", __package__) for name in _VERBS]
     operators = [cls for verb in verbs for cls in verb.CLASSES]
@@ -33,24 +42,28 @@ def _classes() -> list[type]:
 
 
 def register() -> None:
+    """Register the operators, the settings in scenes, the view state and the command."""
     import bpy
 
-    from . import command, trace_settings, view_state
+    from . import blender_command
+    from .tracing import trace_settings
+    from .view import view_state
 
     for cls in _classes():
         bpy.utils.register_class(cls)
     pointer = bpy.props.PointerProperty
     bpy.types.Scene.involute = pointer(type=trace_settings.INVOLUTE_PG_trace_settings)
     bpy.types.WindowManager.involute_view = pointer(type=view_state.INVOLUTE_PG_view)
-    command.register()
+    blender_command.register()
 
 
 def unregister() -> None:
+    """Take all of it back, in the opposite order."""
     import bpy
 
-    from . import command
+    from . import blender_command
 
-    command.unregister()
+    blender_command.unregister()
     del bpy.types.WindowManager.involute_view
     del bpy.types.Scene.involute
     for cls in reversed(_classes()):

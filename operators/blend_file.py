@@ -10,6 +10,8 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ..engine.formats import Format
+
 if TYPE_CHECKING:
     import bpy
 
@@ -79,7 +81,7 @@ def _object(scene: bpy.types.Scene, name: str, drawing: Drawing) -> bpy.types.Ob
     """A new Grease Pencil object in the scene; the first one gets the camera."""
     import bpy
 
-    from .trace import new_object
+    from .tracing.trace import new_object
 
     obj = new_object(name)
     scene.collection.objects.link(obj)
@@ -96,13 +98,12 @@ def _object(scene: bpy.types.Scene, name: str, drawing: Drawing) -> bpy.types.Ob
 def _put(
     obj: bpy.types.Object, frame: int, drawing: Drawing, source: str, *, alone: bool = False
 ) -> None:
-    from . import grease_pencil as gp
-    from . import state
-    from .placement import front_view
+    from .grease_pencil import state, writing
+    from .grease_pencil.core.pixel_map import front_view
 
-    placement = front_view(drawing.size)
-    key = state.add(obj.data, drawing, placement, source)
-    gp.write(obj.data, frame, drawing, placement, key, alone=alone)
+    pixel_map = front_view(drawing.size)
+    key = state.add(obj.data, drawing, pixel_map, source)
+    writing.write(obj.data, frame, drawing, pixel_map, key, alone=alone)
 
 
 def _save(path: str | PathLike[str]) -> None:
@@ -159,3 +160,11 @@ def _frame_size(render: object, size: tuple[int, int]) -> None:
 def _reason(error: RuntimeError) -> str:
     text = str(error).strip().splitlines()
     return (text[-1] if text else "unknown reason").removeprefix("Error: ").rstrip(".") + "."
+
+
+BLEND = Format(
+    suffix=".blend",
+    about="Grease Pencil strokes in a Blender file; holds many drawings, and sequences",
+    write_many=write,
+    write_sequence=write_sequence,
+)

@@ -28,6 +28,7 @@ class Job:
         raise NotImplementedError
 
     def start(self) -> None:
+        """Do it in a thread of its own."""
         self._thread.start()
 
     def cancel(self) -> None:
@@ -36,6 +37,7 @@ class Job:
 
     @property
     def running(self) -> bool:
+        """Is the thread still at work?"""
         return self._thread.is_alive()
 
     def run(self) -> None:

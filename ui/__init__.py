@@ -5,8 +5,20 @@ from __future__ import annotations
 from importlib import import_module
 from types import ModuleType
 
-_WITH_CLASSES = ("preferences", "presets", "trace_panel", "junction_panel", "pie")
-_WITH_REGISTER = ("translations", "menus", "overlay", "keymap", "tool")
+_WITH_CLASSES = (
+    "panels.preferences",
+    "panels.presets",
+    "panels.trace_panel",
+    "panels.junction_panel",
+    "panels.pie",
+)
+_WITH_REGISTER = (
+    "language.translations",
+    "panels.menus",
+    "overlay.overlay",
+    "keymap",
+    "tool",
+)
 
 
 def _modules(names: tuple[str, ...]) -> list[ModuleType]:
@@ -14,6 +26,7 @@ def _modules(names: tuple[str, ...]) -> list[ModuleType]:
 
 
 def register() -> None:
+    """Register all that is seen."""
     import bpy
 
     for module in _modules(_WITH_CLASSES):
@@ -24,6 +37,7 @@ def register() -> None:
 
 
 def unregister() -> None:
+    """Take all of it back, in the opposite order."""
     import bpy
 
     for module in reversed(_modules(_WITH_REGISTER)):

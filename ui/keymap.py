@@ -6,14 +6,15 @@ from collections.abc import Iterator
 
 import bpy
 
-from ..operators.go_to_junction import INVOLUTE_OT_step_junction
-from .pie import INVOLUTE_MT_pie
+from ..operators.junctions.go_to_junction import INVOLUTE_OT_step_junction
+from .panels.pie import INVOLUTE_MT_pie
 
 _MENU = "wm.call_menu_pie"
 _added: list[tuple[bpy.types.KeyMap, bpy.types.KeyMapItem]] = []
 
 
 def register() -> None:
+    """Add our keys to the 3D viewport."""
     configuration = bpy.context.window_manager.keyconfigs.addon
     if configuration is None:
         return
@@ -30,6 +31,7 @@ def register() -> None:
 
 
 def unregister() -> None:
+    """Take them away again."""
     for keymap, item in _added:
         keymap.keymap_items.remove(item)
     _added.clear()

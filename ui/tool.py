@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import bpy
 
-from ..operators.choose import INVOLUTE_OT_choose
-from ..operators.drag_join import INVOLUTE_OT_drag_join, INVOLUTE_OT_separate_under_mouse
+from ..operators.junctions.choose import INVOLUTE_OT_choose
+from ..operators.junctions.drag_join import INVOLUTE_OT_drag_join, INVOLUTE_OT_separate_under_mouse
 
 
 class _Junctions:
@@ -33,6 +33,7 @@ class _Junctions:
 
     @staticmethod
     def draw_settings(context: bpy.types.Context, layout: bpy.types.UILayout, tool: object) -> None:
+        """The switch of the overlay in the header."""
         view = context.window_manager.involute_view
         layout.prop(view, "show_overlay", text="Junctions", icon="OVERLAY", toggle=True)
 
@@ -50,10 +51,12 @@ _TOOLS = (
 
 
 def register() -> None:
+    """Add the tool to each mode."""
     for tool in _TOOLS:
         bpy.utils.register_tool(tool, separator=True)
 
 
 def unregister() -> None:
+    """Take it away again."""
     for tool in reversed(_TOOLS):
         bpy.utils.unregister_tool(tool)

@@ -14,7 +14,7 @@ import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
-from .skeleton import Pieces, pieces, strokes
+from .plain_skeleton import Pieces, pieces, strokes
 
 Array = np.ndarray
 

@@ -16,7 +16,7 @@ from scipy.ndimage import uniform_filter1d
 from scipy.spatial import cKDTree
 from skimage.morphology import medial_axis
 
-from .skeleton import pieces, strokes
+from .plain_skeleton import pieces, strokes
 
 Array = np.ndarray
 

@@ -28,10 +28,10 @@ def provider_for(settings: Settings) -> CenterlineProvider:
 
         return given
     if settings.provider != "classical":
-        from . import network
+        from . import learned
 
-        if settings.provider == "network" or network.available():
-            return network.provider(settings)
+        if settings.provider == "network" or learned.available():
+            return learned.provider(settings)
     from .classical import classical
 
     return classical

@@ -13,7 +13,6 @@ import numpy as np
 
 from .. import weights as shipped
 from ..errors import InvoluteError
-from ..settings import Device
 from ..values import Array
 
 Infer = Callable[[Array], Array]
@@ -25,7 +24,7 @@ _Run = Callable[[Array, int], list[Array]]  # ink -> the first so many outputs
 
 
 @cache
-def load(weights: Path, device: Device) -> Infer:
+def load(weights: Path, device: str) -> Infer:
     """The network in a file, on a device; loaded once per process.
 
     Raises:
@@ -36,7 +35,7 @@ def load(weights: Path, device: Device) -> Infer:
 
 
 @cache
-def load_both(weights: Path, device: Device) -> InferBoth:
+def load_both(weights: Path, device: str) -> InferBoth:
     """The same network as `load` gives, with its features.
 
     Raises:
@@ -54,7 +53,7 @@ def load_both(weights: Path, device: Device) -> InferBoth:
 
 
 @cache
-def _loaded(weights: Path, device: Device) -> _Run:
+def _loaded(weights: Path, device: str) -> _Run:
     if not weights.exists():
         raise InvoluteError(
             f"The weights of the centerline network ({weights.name}) are missing; reinstall "

@@ -13,7 +13,7 @@ from collections.abc import Callable
 import cv2
 import numpy as np
 
-from ..distance import depth
+from ..arrays.distance import depth
 from ..values import Array, LineMaps, Scan
 
 _TILE = 1024  # px; pages are worked in tiles, so that memory does not grow with them

@@ -1,17 +1,77 @@
-"""Drawings on disk, chosen by suffix: SVG, JSON (keeps everything) and a PNG preview."""
+"""Drawings on disk, chosen by suffix: SVG, JSON (keeps everything) and a PNG preview.
+
+A format is declared once, as a `Format`: the command line, its help and the manual follow. What the
+engine may not import (Blender) declares its format where it is, and hands it to `command.cli.main`.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from importlib import import_module
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..errors import InvoluteError
 
 if TYPE_CHECKING:
     from ..drawing import Drawing
 
-SUFFIXES = (".svg", ".json", ".png")
+
+@dataclass(frozen=True, kw_only=True)
+class Format:
+    """One kind of file for drawings.
+
+    suffix: such as ".svg".
+    about: what it is, for people; a phrase.
+    write: writes one drawing to a path.
+    read: makes a drawing of a text and the file's name; None where it can't be read back.
+    write_many: writes (name, drawing) pairs to one path; None where a file holds one drawing.
+    write_sequence: writes a name and (frame, drawing) pairs, ascending, to one path, or None.
+    """
+
+    suffix: str
+    about: str
+    write: Callable[[Drawing, Path], None] | None = None
+    read: Callable[[str, str], Drawing] | None = None
+    write_many: Callable[[Sequence[tuple[str, Drawing]], Path], None] | None = None
+    write_sequence: Callable[[str, Iterable[tuple[int, Drawing]], Path], None] | None = None
+
+    @property
+    def name(self) -> str:
+        """As `--format` takes it: svg."""
+        return self.suffix.lstrip(".")
+
+
+def _later(module: str, function: str) -> Callable[..., Any]:
+    """A function of this package; its module, with all of OpenCV, is imported when it is called."""
+
+    def call(*arguments: Any) -> Any:
+        return getattr(import_module(f".{module}", __name__), function)(*arguments)
+
+    return call
+
+
+FORMATS = (
+    Format(
+        suffix=".svg",
+        about="a path per stroke, for every vector program",
+        write=_later("svg", "write"),
+        read=_later("svg", "read"),
+    ),
+    Format(
+        suffix=".json",
+        about="everything, junctions and their alternatives too, for Involute and Python",
+        write=_later("drawing_json", "write"),
+        read=_later("drawing_json", "read"),
+    ),
+    Format(
+        suffix=".png",
+        about="a picture to look at: each stroke in its own color, junctions ringed",
+        write=_later("png", "write"),
+    ),
+)
 
 
 def save(drawing: Drawing, path: str | PathLike[str]) -> None:
@@ -20,14 +80,13 @@ def save(drawing: Drawing, path: str | PathLike[str]) -> None:
     Raises:
         InvoluteError: an unknown suffix, or the file can't be written.
     """
-    from . import drawing_json, png, svg
     from .whole_file import whole_file
 
     path = Path(path)
-    writers = {".svg": svg.write, ".json": drawing_json.write, ".png": png.write}
-    writer = writers.get(path.suffix.lower())
+    known = {f.suffix: f.write for f in FORMATS if f.write}
+    writer = known.get(path.suffix.lower())
     if writer is None:
-        raise InvoluteError(f"Can't write {path.name}; choose a name that ends in {_endings()}.")
+        raise InvoluteError(f"Can't write {path.name}; choose a name that ends in {either(known)}.")
     with whole_file(path) as part:
         writer(drawing, part)
 
@@ -38,13 +97,11 @@ def load(path: str | PathLike[str]) -> Drawing:
     Raises:
         InvoluteError: the file can't be read as a drawing.
     """
-    from . import drawing_json, svg
-
     path = Path(path)
-    readers = {".svg": svg.read, ".json": drawing_json.read}
-    reader = readers.get(path.suffix.lower())
+    known = {f.suffix: f.read for f in FORMATS if f.read}
+    reader = known.get(path.suffix.lower())
     if reader is None:
-        raise InvoluteError(f"{path.name} holds no drawing; choose a .json or .svg file.")
+        raise InvoluteError(f"{path.name} holds no drawing; choose a {either(known)} file.")
     try:
         text = path.read_text(encoding="utf-8")
     except FileNotFoundError:
@@ -56,8 +113,10 @@ def load(path: str | PathLike[str]) -> Drawing:
     return reader(text, path.name)
 
 
-def _endings() -> str:
-    return ", ".join(SUFFIXES[:-1]) + " or " + SUFFIXES[-1]
+def either(names: Iterable[str]) -> str:
+    """Names as a sentence lists them: .svg, .json or .png."""
+    *others, last = names
+    return f"{', '.join(others)} or {last}" if others else last
 
 
-__all__ = ["SUFFIXES", "load", "save"]
+__all__ = ["FORMATS", "Format", "either", "load", "save"]

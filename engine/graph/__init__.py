@@ -32,21 +32,21 @@ import numpy as np
 
 from ..settings import Settings
 from ..values import LineMaps, PlanarGraph
-from .cleanup import prune, unbridge
-from .dust import sweep
 from .ends import place_ends
 from .gaps import bridge
-from .ignored import without_pencil
 from .junctions import resolve
 from .measure import measure
-from .planar import planarized
+from .planarity import planarized
+from .removal.dust import sweep
+from .removal.pencil_lines import without_pencil
+from .removal.spurs import prune, unbridge
+from .removal.stubs import trim
+from .removal.undrawn import drop_undrawn
 from .ridge import Ridge
 from .skeleton import Chains, thin, trace
 from .smoothing import even, smooth
-from .stubs import trim
 from .tips import open_tips, split_bends
 from .topology import contract, join, select
-from .undrawn import drop_undrawn
 
 
 def build_graph(maps: LineMaps, pen_width: float, settings: Settings) -> PlanarGraph:

@@ -10,7 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..sampling import sample
+from ..arrays.sampling import sample
 from ..values import PlanarGraph
 
 Array = np.ndarray

@@ -11,7 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..sampling import sample
+from ..arrays.sampling import sample
 from ..values import PlanarGraph
 from .nearby import near_pairs
 from .topology import lengths

@@ -12,13 +12,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..sampling import sample
+from ..arrays.sampling import sample
 from ..values import PlanarGraph
-from .blobs import find_blobs
-from .curves import SAMPLES, Continuations, best_pairing, extend, pairs_within
-from .halves import Halves, read_halves
+from .clusters import find_blobs
+from .continuations import SAMPLES, Continuations, best_pairing, extend, pairs_within
+from .courses import Halves, read_halves
+from .shared_ridges import told_apart
 from .topology import connected, join
-from .twins import told_apart
 
 Array = np.ndarray
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..sampling import sample
+from ..arrays.sampling import sample
 from ..values import LineMaps, PlanarGraph, Scan
 
 Array = np.ndarray

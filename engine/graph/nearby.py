@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from .curves import pairs_within
+from .continuations import pairs_within
 
 Array = np.ndarray
 

@@ -13,8 +13,8 @@ from dataclasses import replace
 import numpy as np
 
 from ..values import PlanarGraph
-from .curves import ALONE, Continuations
-from .halves import read_halves
+from .continuations import ALONE, Continuations
+from .courses import read_halves
 from .topology import lengths, select
 
 Array = np.ndarray

@@ -14,7 +14,7 @@ from ..errors import InvoluteError
 from ..settings import Settings
 from ..values import Pair, PlanarGraph, Routing
 from .alternatives import ranked_alternatives
-from .halves import candidate_pairs
+from .candidates import candidate_pairs
 
 Fixed = Mapping[int, tuple[Pair, ...]]
 Scorer = Callable[[PlanarGraph, np.ndarray, Fixed], np.ndarray]

@@ -13,8 +13,8 @@ from collections.abc import Mapping
 import numpy as np
 
 from ..values import Alternative, Pair, PlanarGraph
-from .halves import by_degree, pair_starts
-from .matching import MAX_LISTED_DEGREE, best_matching, involutions, pair_matrix, pairs_of
+from .candidates import by_degree, pair_starts
+from .involution import MAX_LISTED_DEGREE, best_matching, involutions, pair_matrix, pairs_of
 
 Array = np.ndarray
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..tint import tint
+from ..ink.tint import tint
 from ..values import PlanarGraph
 
 Array = np.ndarray
@@ -45,7 +45,7 @@ class HalfFeatures:
     """One row per half-branch.
 
     length: (2B,) of the whole branch in pen widths.
-    width: (2B,) in pen widths; strength: (2B,) ink in [0, 1]; tint: (2B, 2), see `engine.tint`;
+    width: (2B,) in pen widths; strength: (2B,) ink in [0, 1]; tint: (2B, 2), see `engine.ink.tint`;
         each the median of the middle stretch.
     """
 

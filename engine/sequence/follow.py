@@ -14,9 +14,9 @@ import cv2
 import numpy as np
 
 from ..drawing import Drawing
-from ..unmixing import COLORED, hue_of
+from ..ink.unmixing import COLORED, hue_of
 from ..values import Array, Stroke
-from .matching import SAMPLES, Matches, match_strokes, sample_strokes
+from .stroke_matching import SAMPLES, Matches, match_strokes, sample_strokes
 
 _SAME_HUE = np.radians(35)  # a coloured ink may look darker in one frame, hardly of another hue
 _SAME_GRAY = 60.0  # of 255, for black, gray and what is nearly that

@@ -12,7 +12,7 @@ build       all of these in order
 from __future__ import annotations
 
 from .build import build
-from .page import Page
+from .shared import Page
 from .walk import Walk, walk
 
 __all__ = ["Page", "Walk", "build", "walk"]

@@ -9,10 +9,10 @@ import numpy as np
 from ..values import Stroke
 from .bezier import fit
 from .corners import find_corners, sharpen
+from .fairing import margin, smooth
 from .lines import Lines, Pieces
-from .page import SAMPLES_PER_PEN, Page
+from .shared import SAMPLES_PER_PEN, Page
 from .simplify import simplify
-from .smooth import margin, smooth
 from .walk import Walk
 
 Array = np.ndarray

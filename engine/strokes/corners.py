@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from .lines import Lines
-from .page import SAMPLES_PER_PEN
+from .shared import SAMPLES_PER_PEN
 
 Array = np.ndarray
 

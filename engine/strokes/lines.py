@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .page import Page
+from .shared import Page
 from .walk import Walk
 
 Array = np.ndarray

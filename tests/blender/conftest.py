@@ -68,7 +68,7 @@ def extension(archive: Path, tmp_path_factory: pytest.TempPathFactory) -> Module
 
 @pytest.fixture
 def part(extension: ModuleType):
-    """Import a module of the installed extension: part("operators.state")."""
+    """Import a module of the installed extension: part("operators.grease_pencil.state")."""
     return lambda name: importlib.import_module(f"{MODULE}.{name}")
 
 

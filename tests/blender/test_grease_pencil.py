@@ -8,22 +8,24 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from .drawings import cross, many_strokes
+from .example_drawings import cross, many_strokes
 
 
-def make(bpy, part, drawing, placement=None):
+def make(bpy, part, drawing, pixel_map=None):
     """Write a drawing into a new object at frame 1."""
-    trace, state, gp = (part(f"operators.{name}") for name in ("trace", "state", "grease_pencil"))
+    trace = part("operators.tracing.trace")
+    state = part("operators.grease_pencil.state")
     obj = trace.new_object("Ink")
     bpy.context.scene.collection.objects.link(obj)
-    placement = placement or part("operators.placement").front_view(drawing.size)
-    key = state.add(obj.data, drawing, placement, "test")
-    gp.write(obj.data, 1, drawing, placement, key)
-    return obj, placement
+    pixel_map = pixel_map or part("operators.grease_pencil.core.pixel_map").front_view(drawing.size)
+    key = state.add(obj.data, drawing, pixel_map, "test")
+    part("operators.grease_pencil.writing").write(obj.data, 1, drawing, pixel_map, key)
+    return obj, pixel_map
 
 
 def curves_of(part, obj, layer="Black", frame=1):
-    return part("operators.grease_pencil").read(obj.data.layers[layer].get_frame_at(frame).drawing)
+    layers = part("operators.grease_pencil.cels")
+    return layers.read(obj.data.layers[layer].get_frame_at(frame).drawing)
 
 
 def with_handles(stroke):
@@ -37,27 +39,27 @@ def test_strokes_arrive_whole(bpy, part, curve):
     drawing = cross(part)
     if curve == "bezier":
         drawing = replace(drawing, strokes=tuple(map(with_handles, drawing.strokes)))
-    obj, placement = make(bpy, part, drawing)
+    obj, pixel_map = make(bpy, part, drawing)
     curves = curves_of(part, obj)
     assert len(curves) == len(drawing.strokes)
     points = np.concatenate([s.points for s in drawing.strokes])
     widths = np.concatenate([s.widths for s in drawing.strokes])
-    np.testing.assert_allclose(placement.to_pixels(curves.point("position")), points, atol=1e-3)
-    np.testing.assert_allclose(curves.point("radius"), widths / 2 * placement.unit, rtol=1e-5)
+    np.testing.assert_allclose(pixel_map.to_pixels(curves.point("position")), points, atol=1e-3)
+    np.testing.assert_allclose(curves.point("radius"), widths / 2 * pixel_map.unit, rtol=1e-5)
     np.testing.assert_allclose(
         curves.point("opacity"), np.concatenate([s.opacity for s in drawing.strokes])
     )
     assert curves.curve("cyclic").tolist() == [s.closed for s in drawing.strokes]
     if curve == "bezier":
         handles = np.concatenate([s.handles for s in drawing.strokes])
-        left = placement.to_pixels(curves.point("handle_left"))
+        left = pixel_map.to_pixels(curves.point("handle_left"))
         np.testing.assert_allclose(left, handles[:, 0], atol=1e-3)
         assert set(curves.curve("curve_type")) == {2}
 
 
 def test_drawing_lies_in_the_front_view_two_metres_tall(bpy, part):
-    placement = part("operators.placement").front_view((400, 300))
-    corners = placement.to_object(np.array([[0, 0], [400, 300]]))
+    pixel_map = part("operators.grease_pencil.core.pixel_map").front_view((400, 300))
+    corners = pixel_map.to_object(np.array([[0, 0], [400, 300]]))
     np.testing.assert_allclose(corners[:, 2], [1, -1])
     np.testing.assert_allclose(corners[:, 0], [-4 / 3, 4 / 3], rtol=1e-6)
     np.testing.assert_allclose(corners[:, 1], 0)
@@ -77,10 +79,10 @@ def test_inks_become_layers_and_materials(bpy, part):
 def test_solid_blacks_lie_below_without_their_holes(bpy, part):
     square = np.array([[0, 0], [100, 0], [100, 100], [0, 100]], np.float32)
     drawing = replace(cross(part), fills=((square, square[::-1] * 0.5 + 25),))
-    obj, placement = make(bpy, part, drawing)
+    obj, pixel_map = make(bpy, part, drawing)
     assert [layer.name for layer in obj.data.layers] == ["Solids", "Black"]
     curves = curves_of(part, obj, "Solids")
-    x, y = placement.to_pixels(curves.point("position")).T
+    x, y = pixel_map.to_pixels(curves.point("position")).T
     area = abs(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1))) / 2
     assert area == pytest.approx(100 * 100 - 50 * 50, rel=1e-4)
     material = obj.data.materials[int(curves.curve("material_index")[0])]
@@ -93,7 +95,8 @@ def test_solid_blacks_lie_below_without_their_holes(bpy, part):
 
 
 def test_replace_keeps_order_and_other_attributes(bpy, part):
-    gp, curves = part("operators.grease_pencil"), part("operators.curves")
+    gp = part("operators.grease_pencil.cels")
+    curves = part("operators.grease_pencil.core.stroke_arrays")
     obj, _ = make(bpy, part, cross(part))
     drawing = obj.data.layers["Black"].get_frame_at(1).drawing
     attribute = drawing.attributes.new("mine", "FLOAT", "CURVE")
@@ -114,22 +117,22 @@ def test_replace_keeps_order_and_other_attributes(bpy, part):
 
 
 def test_tracing_again_keeps_strokes_drawn_by_hand(bpy, part):
-    gp, curves = part("operators.grease_pencil"), part("operators.curves")
+    gp = part("operators.grease_pencil.cels")
+    curves = part("operators.grease_pencil.core.stroke_arrays")
     drawing = cross(part)
-    obj, placement = make(bpy, part, drawing)
-    page = obj.data.layers["Black"].get_frame_at(1).drawing
-    page.add_strokes([5])
-    gp.write(obj.data, 1, drawing, placement, 77)
-    assert gp.read(page).curve(curves.TRACE).tolist() == [0, 77, 77, 77]
+    obj, pixel_map = make(bpy, part, drawing)
+    cel = obj.data.layers["Black"].get_frame_at(1).drawing
+    cel.add_strokes([5])
+    part("operators.grease_pencil.writing").write(obj.data, 1, drawing, pixel_map, 77)
+    assert gp.read(cel).curve(curves.TRACE).tolist() == [0, 77, 77, 77]
 
 
 def test_ten_thousand_strokes_take_a_fifth_of_a_second(bpy, part):
     drawing = many_strokes(part, 10_000, 50)
-    gp = part("operators.grease_pencil")
-    placement = part("operators.placement").front_view(drawing.size)
-    obj = part("operators.trace").new_object("Many")
+    pixel_map = part("operators.grease_pencil.core.pixel_map").front_view(drawing.size)
+    obj = part("operators.tracing.trace").new_object("Many")
     start = time.process_time()
-    gp.write(obj.data, 1, drawing, placement, 1)
+    part("operators.grease_pencil.writing").write(obj.data, 1, drawing, pixel_map, 1)
     print(f"10,000 strokes of 50 points: {time.process_time() - start:.3f} s of CPU")
     assert len(curves_of(part, obj)) == 10_000
 
@@ -147,4 +150,4 @@ def test_ten_thousand_strokes_take_a_fifth_of_a_second(bpy, part):
     ],
 )
 def test_ink_names(part, color, name):
-    assert part("operators.inks").ink_name(color) == name
+    assert part("engine.ink.ink_names").ink_name(color) == name

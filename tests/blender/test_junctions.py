@@ -5,18 +5,18 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from .drawings import cross, grid, ring_and_lines
+from .example_drawings import cross, grid, ring_and_lines
 from .test_grease_pencil import make
-from .test_rerouting import assert_same, drawing_of, strokes_in
+from .test_splicing import assert_same, drawing_of, strokes_in
 
 
 @pytest.fixture
 def traced(bpy, part):
     """An active object with nine crossings."""
-    obj, placement = make(bpy, part, grid(part, 3))
+    obj, pixel_map = make(bpy, part, grid(part, 3))
     bpy.context.view_layer.objects.active = obj
     obj.select_set(True)
-    return obj, placement
+    return obj, pixel_map
 
 
 @pytest.fixture
@@ -25,7 +25,7 @@ def view(bpy):
 
 
 def shown(bpy, part):
-    return part("operators.view_state").shown_in(bpy.context)
+    return part("operators.view.view_state").shown_in(bpy.context)
 
 
 def test_operators_need_a_traced_drawing(bpy):
@@ -34,14 +34,14 @@ def test_operators_need_a_traced_drawing(bpy):
 
 
 def test_reroute_applies_an_alternative_and_locks(bpy, part, traced):
-    obj, placement = traced
+    obj, pixel_map = traced
     ways = drawing_of(part, obj).junctions[4].alternatives
     assert bpy.ops.involute.reroute(junction=4, alternative=2) == {"FINISHED"}
     junction = drawing_of(part, obj).junctions[4]
     assert junction.pairs == ways[2].pairs
     assert junction.locked
     assert shown(bpy, part).junction.index == 4
-    assert_same(strokes_in(part, obj, placement), drawing_of(part, obj).strokes)
+    assert_same(strokes_in(part, obj, pixel_map), drawing_of(part, obj).strokes)
     with pytest.raises(RuntimeError, match="alternatives"):
         bpy.ops.involute.reroute(junction=4, alternative=99)
     with pytest.raises(RuntimeError, match="Choose a junction"):
@@ -51,17 +51,17 @@ def test_reroute_applies_an_alternative_and_locks(bpy, part, traced):
 @pytest.mark.parametrize("mode", ["OBJECT", "EDIT", "PAINT_GREASE_PENCIL"])
 def test_choosing_works_in_every_mode(bpy, part, traced, mode):
     """Without a mouse, choosing is what Adjust Last Operation runs again."""
-    obj, placement = traced
+    obj, pixel_map = traced
     bpy.ops.object.mode_set(mode=mode)
     assert bpy.ops.involute.choose("EXEC_DEFAULT", junction=4, alternative=1) == {"FINISHED"}
     ways = drawing_of(part, obj).junctions[4].alternatives
     assert drawing_of(part, obj).junctions[4].pairs == ways[1].pairs
     bpy.ops.object.mode_set(mode="OBJECT")
-    assert_same(strokes_in(part, obj, placement), drawing_of(part, obj).strokes)
+    assert_same(strokes_in(part, obj, pixel_map), drawing_of(part, obj).strokes)
 
 
 def test_join_and_separate_by_hand(bpy, part, traced):
-    obj, placement = traced
+    obj, pixel_map = traced
     first, second, third, fourth = drawing_of(part, obj).junctions[0].half_branches
     bpy.ops.involute.separate(junction=0)
     assert drawing_of(part, obj).junctions[0].pairs == ()
@@ -73,14 +73,14 @@ def test_join_and_separate_by_hand(bpy, part, traced):
     assert drawing_of(part, obj).junctions[0].pairs == ((first, second), (third, fourth))
     bpy.ops.involute.separate(half=first)
     assert drawing_of(part, obj).junctions[0].pairs == ((third, fourth),)
-    assert_same(strokes_in(part, obj, placement), drawing_of(part, obj).strokes)
+    assert_same(strokes_in(part, obj, pixel_map), drawing_of(part, obj).strokes)
     elsewhere = drawing_of(part, obj).junctions[8].half_branches[0]
     with pytest.raises(RuntimeError, match="one junction"):
         bpy.ops.involute.join(first=first, second=elsewhere)
 
 
 def test_lock_accept_and_ask_again(bpy, part, traced):
-    obj, placement = traced
+    obj, pixel_map = traced
     before = drawing_of(part, obj)
     bpy.ops.involute.lock(junction=3)
     assert drawing_of(part, obj).junctions[3].locked
@@ -93,11 +93,11 @@ def test_lock_accept_and_ask_again(bpy, part, traced):
     assert drawing_of(part, obj).junctions[5].pairs == before.junctions[5].pairs
     bpy.ops.involute.accept(probability=0)
     assert all(j.locked for j in drawing_of(part, obj).junctions)
-    assert_same(strokes_in(part, obj, placement), drawing_of(part, obj).strokes)
+    assert_same(strokes_in(part, obj, pixel_map), drawing_of(part, obj).strokes)
 
 
 def test_list_filters_and_order(part):
-    table = part("operators.junction_table").JunctionTable(
+    table = part("operators.view.junction_table").JunctionTable(
         positions=np.array([[5, 90], [50, 5], [10, 6], [40, 50]], np.float32),
         degree=np.array([3, 4, 3, 7]),
         doubt=np.array([0.05, 0.4, 0.2, 0.0], np.float32),
@@ -125,28 +125,30 @@ def test_steps_go_through_the_list_and_move_the_view(bpy, part, traced, view):
 
 
 def test_two_drawings_do_not_touch_each_other(bpy, part, traced, view):
-    first, placement = traced
-    second, other_placement = make(bpy, part, cross(part))
+    first, pixel_map = traced
+    second, other_map = make(bpy, part, cross(part))
     bpy.ops.involute.reroute(junction=1, alternative=1)
     bpy.context.view_layer.objects.active = second
     assert shown(bpy, part).junction is None  # the current junction is the other drawing's
     bpy.ops.involute.reroute(junction=0, alternative=1)
-    assert_same(strokes_in(part, second, other_placement), drawing_of(part, second).strokes)
-    assert_same(strokes_in(part, first, placement), drawing_of(part, first).strokes)
+    assert_same(strokes_in(part, second, other_map), drawing_of(part, second).strokes)
+    assert_same(strokes_in(part, first, pixel_map), drawing_of(part, first).strokes)
 
 
 def test_frames_have_their_own_junctions(bpy, part, traced):
-    obj, placement = traced
-    gp, state = part("operators.grease_pencil"), part("operators.state")
+    obj, pixel_map = traced
+    state = part("operators.grease_pencil.state")
     drawing = cross(part)
-    gp.write(obj.data, 10, drawing, placement, state.add(obj.data, drawing, placement, "ten"))
+    part("operators.grease_pencil.writing").write(
+        obj.data, 10, drawing, pixel_map, state.add(obj.data, drawing, pixel_map, "ten")
+    )
     scene = bpy.context.scene
     for frame, count in ((1, 9), (9, 9), (10, 1), (50, 1)):
         scene.frame_set(frame)
         assert len(shown(bpy, part).table) == count
     bpy.ops.involute.reroute(junction=0, alternative=1)
     assert len(drawing_of(part, obj, 10).strokes) != len(drawing.strokes)
-    assert_same(strokes_in(part, obj, placement, 1), drawing_of(part, obj, 1).strokes)
+    assert_same(strokes_in(part, obj, pixel_map, 1), drawing_of(part, obj, 1).strokes)
 
 
 def test_files_of_a_newer_involute_are_left_alone(bpy, part, traced):
@@ -156,7 +158,7 @@ def test_files_of_a_newer_involute_are_left_alone(bpy, part, traced):
 
 
 def test_words(part):
-    words = part("operators.junction_words")
+    words = part("operators.view.junction_words")
     drawing = cross(part)
     junction = drawing.junctions[0]
     names = words.letters(drawing, junction)
@@ -170,7 +172,7 @@ def test_words(part):
 
 
 def test_picking_needs_no_gpu(part):
-    picking = part("operators.picking")
+    picking = part("operators.view.picking")
     matrix = np.array([[0.1, 0, 0, 0], [0, 0.2, 0, 0], [0, 0, 0, 0], [0, 0, 0, 1.0]])
     points = np.array([[0, 0, 0], [5, 2.5, 0], [-5, 0, 1]])
     places = picking.project(points, matrix, 200, 100)
@@ -185,7 +187,7 @@ def test_picking_needs_no_gpu(part):
 
 
 def test_a_drag_joins_the_nearest_lines_that_meet(part):
-    pair = part("operators.picking").nearest_pair
+    pair = part("operators.view.picking").nearest_pair
     vertex = np.array([0, 1, 0, 2, 1, 2])
     assert pair({0: 5.0, 1: 2.0}, {2: 1.0, 3: 0.5}, vertex) == (0, 2)
     assert pair({0: 5.0, 1: 2.0}, {2: 9.0, 4: 1.0}, vertex) == (1, 4)
@@ -194,7 +196,7 @@ def test_a_drag_joins_the_nearest_lines_that_meet(part):
 
 @pytest.mark.parametrize("anchor", [(400, 300), (5, 5), (795, 595), (-500, 2000)])
 def test_cards_stay_inside_the_region(part, anchor):
-    cards = part("operators.cards")
+    cards = part("operators.view.card_layout")
     row = cards.layout(5, anchor, (800, 600))
     assert all(c.x >= 0 and c.y >= 0 for c in row)
     assert all(c.x + c.width <= 800 and c.y + c.height <= 600 for c in row)
@@ -203,8 +205,8 @@ def test_cards_stay_inside_the_region(part, anchor):
 
 
 def test_overlay_geometry(part):
-    geometry, colors = part("ui.overlay_geometry"), part("ui.colors")
-    table = part("operators.junction_table").JunctionTable(
+    geometry, colors = part("ui.overlay.overlay_geometry"), part("ui.overlay.colors")
+    table = part("operators.view.junction_table").JunctionTable(
         np.array([[10, 10], [50, 40]], np.float32),
         np.array([3, 4]),
         np.array([0.0, 0.5], np.float32),
@@ -229,7 +231,7 @@ def test_overlay_geometry(part):
 
 def test_sketches_show_short_lines_as_large_as_long_ones(part):
     """Else the card of a short and a long line that are joined shows nothing of the short one."""
-    geometry, drawing = part("ui.overlay_geometry"), ring_and_lines(part)
+    geometry, drawing = part("ui.overlay.overlay_geometry"), ring_and_lines(part)
     for junction in drawing.junctions:
         for way in junction.alternatives:
             for route in geometry.sketch(drawing, junction, way.pairs):
@@ -248,6 +250,6 @@ def test_overlay_and_panels_are_there(bpy, part, traced):
     assert not bpy.types.INVOLUTE_PT_junction.poll(bpy.context)
     bpy.ops.involute.go_to_junction(junction=2)
     assert bpy.types.INVOLUTE_PT_junction.poll(bpy.context)
-    assert len(part("ui.overlay")._handles) == 2
+    assert len(part("ui.overlay.overlay")._handles) == 2
     keys = list(part("ui.keymap").items(bpy.context.window_manager.keyconfigs.addon))
     assert len(keys) == 3

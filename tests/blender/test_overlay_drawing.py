@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from .drawings import grid
+from .example_drawings import grid
 from .test_grease_pencil import make
 
 _SIZE = 640, 480
@@ -22,7 +22,7 @@ def draw(bpy, part):
         gpu.init()
     except (RuntimeError, SystemError) as problem:
         pytest.skip(f"no OpenGL here: {problem}")
-    overlay = part("ui.overlay")
+    overlay = part("ui.overlay.overlay")
     area = next(a for a in bpy.context.screen.areas if a.type == "VIEW_3D")
     region = next(r for r in area.regions if r.type == "WINDOW")
     surface = gpu.types.GPUOffScreen(*_SIZE)
@@ -53,7 +53,7 @@ def test_a_redraw_without_change_makes_nothing(bpy, part, draw):
     bpy.ops.involute.step_junction(direction="NEXT")
     view = bpy.context.window_manager.involute_view
     view.choosing = True
-    kept = part("ui.batches")._kept
+    kept = part("ui.overlay.drawn_batches")._kept
     kept.clear()
     first = draw()
     assert first[..., 3].any()

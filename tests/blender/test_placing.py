@@ -15,9 +15,9 @@ def corners(bpy, part):
 
     def find(place, pixels_per_metre=0.0):
         bpy.context.view_layer.update()
-        stand = part("operators.placing").stand
-        placement, matrix = stand(bpy.context, SIZE, place, pixels_per_metre)
-        local = np.c_[placement.to_object(CORNERS), np.ones(4)]
+        place_drawing = part("operators.tracing.placing").place_drawing
+        pixel_map, matrix = place_drawing(bpy.context, SIZE, place, pixels_per_metre)
+        local = np.c_[pixel_map.to_object(CORNERS), np.ones(4)]
         return (local @ np.array(matrix).T)[:, :3]
 
     return find

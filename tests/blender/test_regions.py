@@ -19,7 +19,7 @@ def test_regions_are_filled_in_the_colours_of_the_page(bpy, part, tmp_path):
     data = bpy.context.active_object.data
     assert data.layers[0].name == "Regions"
     assert len(data.layers) > 1
-    gp = part("operators.grease_pencil")
+    gp = part("operators.grease_pencil.cels")
     curves = gp.read(data.layers[0].frames[0].drawing)
     assert len(curves) == 2
     assert curves.curve("cyclic").all()

@@ -57,7 +57,7 @@ def test_a_folder_becomes_keyframes_and_gaps_are_holds(bpy, part, quick, tmp_pat
         (3, True),
         (6, False),
     ]
-    state = part("operators.state")
+    state = part("operators.grease_pencil.state")
     assert len({state.keys_at(obj.data, frame)[0] for frame in (1, 2, 3, 6)}) == 4
 
 
@@ -164,9 +164,9 @@ def test_the_file_browsers_choice_becomes_keyframes(bpy, part, tmp_path):
 def test_the_job_leaves_the_caller_free(part, tmp_path):
     """What the window does with its timer: look in now and then while processes work."""
     folder = make_pages(part, tmp_path / "walk", [1, 2, 3])
-    frames = part("operators.playing").frames_of_files(folder)
+    frames = part("operators.sequences.playing").frames_of_files(folder)
     settings = part("engine").Settings(provider="classical", router="geometric")
-    job = part("operators.sequence_job").SequenceJob(
+    job = part("operators.sequences.sequence_job").SequenceJob(
         frames, settings, jobs=2, parts=tmp_path / "parts", follow=True
     )
     job.start()

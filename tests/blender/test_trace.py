@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from .conftest import MODULE
-from .test_rerouting import drawing_of, strokes_in
+from .test_splicing import drawing_of, strokes_in
 
 
 @pytest.fixture
@@ -36,7 +36,7 @@ def page(part, path: Path, shift: int = 0) -> Path:
 
 def everything(bpy) -> tuple[int, ...]:
     """How many things of each kind there are: what a failed trace must not change."""
-    gp = sys.modules[f"{MODULE}.operators.grease_pencil"].collection()
+    gp = sys.modules[f"{MODULE}.operators.grease_pencil.cels"].collection()
     data = bpy.data
     return tuple(map(len, (data.objects, data.materials, data.images, data.meshes, gp)))
 
@@ -47,8 +47,8 @@ def test_a_file_becomes_an_object(bpy, part, scan):
     assert obj.name == "page"
     assert {layer.name for layer in obj.data.layers} == {"Solids", "Black"}
     drawing = drawing_of(part, obj)
-    placement = part("operators.placement").front_view((260, 200))
-    found = strokes_in(part, obj, placement)
+    pixel_map = part("operators.grease_pencil.core.pixel_map").front_view((260, 200))
+    found = strokes_in(part, obj, pixel_map)
     assert len(found) == len(drawing.strokes) + len(drawing.fills)
     points = np.concatenate([p for p, closed in found if not closed])
     corners = np.array([[20, 30], [240, 170], [30, 160], [230, 20]])
@@ -85,12 +85,12 @@ def test_strokes_lie_on_the_image_empty(bpy, part, scan, size):
         for a, b in zip(one, other, strict=True)
     )
     # The picture is `size` wide, since it is wider than tall; its own pixels per metre follow.
-    placement = part("operators.placement").on_empty(empty, (260, 200))
+    pixel_map = part("operators.grease_pencil.core.pixel_map").on_empty(empty, (260, 200))
     width, height = size, size * 200 / 260
-    corners = placement.to_object(np.array([[0, 200], [260, 0]]))
+    corners = pixel_map.to_object(np.array([[0, 200], [260, 0]]))
     np.testing.assert_allclose(corners[0], (-0.25 * width, -0.75 * height, 0), atol=1e-6)
     np.testing.assert_allclose(corners[1], (0.75 * width, 0.25 * height, 0), atol=1e-6)
-    lines = [p for p, closed in strokes_in(part, obj, placement) if not closed]
+    lines = [p for p, closed in strokes_in(part, obj, pixel_map) if not closed]
     assert any(np.linalg.norm(p - (20, 30), axis=1).min() < 4 for p in lines)
 
 
@@ -101,8 +101,8 @@ def test_an_image_in_memory_can_be_traced(bpy, part, is_float):
     pixels[20:23, 10:110, :3] = 0.0  # rows count from below
     image.pixels.foreach_set(pixels.ravel())
     assert bpy.ops.involute.trace(image="Sketch") == {"FINISHED"}
-    placement = part("operators.placement").front_view((120, 80))
-    found = [p for p, _ in strokes_in(part, bpy.context.active_object, placement)]
+    pixel_map = part("operators.grease_pencil.core.pixel_map").front_view((120, 80))
+    found = [p for p, _ in strokes_in(part, bpy.context.active_object, pixel_map)]
     longest = max(found, key=lambda p: np.ptp(p[:, 0]))
     np.testing.assert_allclose(np.median(longest[:, 1]), 80 - 21.5, atol=0.6)
 
@@ -116,7 +116,7 @@ def test_an_empty_that_plays_a_sequence_gives_what_it_shows(bpy, part, tmp_path)
     empty.empty_display_type, empty.data = "IMAGE", image
     empty.image_user.frame_start, empty.image_user.frame_duration = 1, 2
     empty.image_user.frame_current = 2
-    source = part("operators.sources").from_image(image, empty)
+    source = part("operators.tracing.sources").from_image(image, empty)
     assert Path(source.picture).name == "walk.0002.png"
 
 
@@ -151,7 +151,7 @@ def test_a_failed_trace_says_so_and_changes_nothing(bpy, part, scan, tmp_path, t
         arguments = {"image": "no such image"}
     elif trouble == "nothing":
         arguments = {}
-    part("operators.grease_pencil")
+    part("operators.grease_pencil.cels")
     before = everything(bpy)
     with pytest.raises(RuntimeError) as problem:
         bpy.ops.involute.trace(**arguments)
@@ -167,7 +167,9 @@ def test_a_blank_page_is_a_blank_keyframe(bpy, part, tmp_path):
     cv2.imwrite(str(tmp_path / "blank.png"), np.full((100, 100), 250, np.uint8))
     assert bpy.ops.involute.trace(filepath=str(tmp_path / "blank.png")) == {"FINISHED"}
     assert not strokes_in(
-        part, bpy.context.active_object, part("operators.placement").front_view((100, 100))
+        part,
+        bpy.context.active_object,
+        part("operators.grease_pencil.core.pixel_map").front_view((100, 100)),
     )
 
 
@@ -191,12 +193,12 @@ def test_tracing_is_one_undo_step(bpy, scan):
 def test_settings_of_the_engine_all_have_a_property(bpy, part):
     from dataclasses import fields
 
-    settings = part("operators.trace_settings")
+    settings = part("operators.tracing.trace_settings")
     properties = bpy.ops.involute.trace.get_rna_type().properties
     names = {field.name for field in fields(part("engine").Settings)}
     for name in names - {"align"}:  # found out page by page, never typed in
         assert properties[name].description
-    ui = part("operators.settings_layout")
+    ui = part("operators.tracing.settings_layout")
     assert {n for _, group in ui.GROUPS for n in group} == set(settings.NAMES)
     assert settings.engine_settings(bpy.context.scene.involute) == part("engine").Settings()
 
@@ -210,18 +212,18 @@ def test_import_operator_and_menus(bpy, part, scan):
 
 def test_blend_file_holds_the_same_strokes_as_the_svg(bpy, part, scan, tmp_path):
     out = tmp_path / "out"
-    run = part("operators.command").run
+    run = part("operators.blender_command").run
     assert run(["trace", str(scan), "-o", str(out), "--format", "svg,blend"]) == 0
     strokes = part("engine").Drawing.load(out / "page.svg").strokes
     bpy.ops.wm.open_mainfile(filepath=str(out / "page.blend"))
     obj = bpy.data.objects["page"]
-    gp = part("operators.grease_pencil")
-    placement = part("operators.placement").front_view((260, 200))
+    gp = part("operators.grease_pencil.cels")
+    pixel_map = part("operators.grease_pencil.core.pixel_map").front_view((260, 200))
     curves = gp.read(obj.data.layers["Black"].get_frame_at(1).drawing)
     assert len(curves) == len(strokes)
-    points = placement.to_pixels(curves.point("position"))
+    points = pixel_map.to_pixels(curves.point("position"))
     np.testing.assert_allclose(points, np.concatenate([s.points for s in strokes]), atol=1e-3)
-    radii = curves.point("radius") / placement.unit
+    radii = curves.point("radius") / pixel_map.unit
     np.testing.assert_allclose(radii, np.concatenate([s.widths for s in strokes]) / 2, atol=1e-3)
     assert bpy.context.scene.camera
 
@@ -252,7 +254,7 @@ def test_defaults_of_the_preferences(bpy):
 
 
 def test_command_fails_in_one_line(bpy, part, tmp_path, capfd):
-    run = part("operators.command").run
+    run = part("operators.blender_command").run
     assert run(["trace", str(tmp_path / "none.png"), "-o", str(tmp_path / "x.blend")]) != 0
     assert not (tmp_path / "x.blend").exists()
 

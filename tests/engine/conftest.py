@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import settings
 from involute.engine.values import PlanarGraph
-from involute.training.routing.planar import graph_from_strokes
+from involute.synthesis.true_graph import graph_from_strokes
 
 # The machine's speed is no property of the code.
 settings.register_profile("engine", deadline=None, max_examples=40)

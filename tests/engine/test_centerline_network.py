@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from involute.engine.centerline import network, tiles
+from involute.engine.centerline import learned, tiles
 from involute.engine.centerline.backends import _torch_gpu, load
 from involute.engine.errors import Cancelled, InvoluteError
 from involute.engine.settings import Settings
@@ -32,7 +32,7 @@ def page_of(*lines: tuple[float, float, float, float], size=(256, 256), width=4)
 
 def trace(ink: np.ndarray):
     scan = Scan(ink, None, 1.0, ink.shape[::-1], 4.0)
-    return network.provider(Settings(device="cpu"))(scan, silent)
+    return learned.provider(Settings(device="cpu"))(scan, silent)
 
 
 @st.composite
@@ -108,7 +108,7 @@ def test_broken_weights_are_an_error(tmp_path):
 @pytest.mark.skipif(_torch_gpu() is not None, reason="there is a GPU")
 def test_a_gpu_that_is_not_there_is_an_error():
     with pytest.raises(InvoluteError, match="GPU"):
-        load(network.WEIGHTS, "gpu")
+        load(learned.WEIGHTS, "gpu")
 
 
 def test_blank_page():

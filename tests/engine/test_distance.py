@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from involute.engine.distance import depth
+from involute.engine.arrays.distance import depth
 from scipy.ndimage import distance_transform_edt
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from involute.engine import Settings
 from involute.engine.graph import sweep
 from involute.engine.values import PlanarGraph
-from involute.training.routing.planar import graph_from_strokes
+from involute.synthesis.true_graph import graph_from_strokes
 
 LINE = np.array([[10.0, 150], [190, 150]])
 

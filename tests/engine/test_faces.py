@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from involute.engine.faces import closed_regions
+from involute.engine.fills.faces import closed_regions
 from involute.engine.values import PlanarGraph
-from involute.training.routing.planar import graph_from_strokes
+from involute.synthesis.true_graph import graph_from_strokes
 
 
 def area(ring):

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from involute.engine import InvoluteError
-from involute.engine.image_file import page_count, read_image
+from involute.engine.scan.image_file import page_count, read_image
 from involute.engine.sequence.frames import FrameRange, number_frames, number_pages
 
 

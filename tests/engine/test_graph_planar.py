@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from involute.engine import Settings
 from involute.engine.graph import build_graph
-from involute.engine.graph.planar import planarized
+from involute.engine.graph.planarity import planarized
 from involute.engine.values import LineMaps, PlanarGraph
 
 SIZE = 200

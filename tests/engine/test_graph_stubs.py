@@ -13,7 +13,7 @@ from involute.engine.graph import trim
 from involute.engine.graph.topology import lengths
 from involute.engine.routing import route
 from involute.engine.values import PlanarGraph
-from involute.training.routing.planar import graph_from_strokes
+from involute.synthesis.true_graph import graph_from_strokes
 
 PEN = 3.0
 GEOMETRIC = Settings(router="geometric")

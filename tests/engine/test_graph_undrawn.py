@@ -9,11 +9,11 @@ from hypothesis import strategies as st
 from involute.engine import Settings
 from involute.engine.centerline import provider_for
 from involute.engine.graph import all_lines
+from involute.engine.graph.removal.undrawn import FEATURES, drop_undrawn, features, probability
 from involute.engine.graph.topology import lengths
-from involute.engine.graph.undrawn import FEATURES, drop_undrawn, features, probability
 from involute.engine.scan import read_scan
 from involute.engine.values import LineMaps, PlanarGraph, Scan
-from involute.training.centerline.media import MEDIA, draw, sample
+from involute.synthesis.media import MEDIA, draw, sample
 
 SETTINGS = Settings()
 SIZE = 320

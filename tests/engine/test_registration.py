@@ -7,10 +7,10 @@ import json
 import cv2
 import numpy as np
 import pytest
+from involute.command.cli import main
 from involute.engine import Settings
-from involute.engine.cli import main
-from involute.engine.registration import anchors_of, find_marks, rigid, set_aside
 from involute.engine.scan import read_scan
+from involute.engine.scan.registration import anchors_of, find_marks, rigid, set_aside
 
 SIZE = (900, 700)  # width, height
 PIXELS_PER_MM = 3.0

@@ -11,11 +11,11 @@ from hypothesis import strategies as st
 from involute.engine import InvoluteError, Settings
 from involute.engine.routing import route
 from involute.engine.routing.alternatives import neighbourhood, ranked_alternatives
+from involute.engine.routing.candidates import candidate_pairs
 from involute.engine.routing.features import half_features
-from involute.engine.routing.halves import candidate_pairs
-from involute.engine.routing.matching import best_matching, involutions, pair_matrix
+from involute.engine.routing.involution import best_matching, involutions, pair_matrix
 from involute.engine.values import PlanarGraph
-from involute.training.routing.planar import graph_from_strokes
+from involute.synthesis.true_graph import graph_from_strokes
 
 GEOMETRIC = Settings(router="geometric")
 

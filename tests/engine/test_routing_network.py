@@ -12,11 +12,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from involute.engine import InvoluteError, Settings
 from involute.engine.routing import geometric, network, route
+from involute.engine.routing.candidates import candidate_pairs
 from involute.engine.routing.encoding import MAX_DEGREE, encode
-from involute.engine.routing.halves import candidate_pairs
 from involute.engine.routing.windows import windows
 from involute.engine.values import PlanarGraph
-from involute.training.routing.planar import graph_from_strokes
+from involute.synthesis.true_graph import graph_from_strokes
 
 NETWORK = Settings(router="network")
 Scribble = Callable[..., tuple[PlanarGraph, np.ndarray]]

@@ -5,9 +5,9 @@ from __future__ import annotations
 import cv2
 import numpy as np
 import pytest
-from involute.engine.paper import flatten_paper
 from involute.engine.pipeline import vectorize
-from involute.engine.ruling import without_rules
+from involute.engine.scan.paper import flatten_paper
+from involute.engine.scan.ruling import without_rules
 
 SIZE = 640
 

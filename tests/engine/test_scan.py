@@ -13,8 +13,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 from involute.engine import InvoluteError, Settings
-from involute.engine.paper import flatten_paper
-from involute.engine.scan import measure_pen, page_count, read_scan
+from involute.engine.scan.paper import flatten_paper
+from involute.engine.scan.preparing import measure_pen, page_count, read_scan
 
 DATA = Path(__file__).parent / "data"
 SETTINGS = Settings()

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from involute.engine.sequence.follow import follow, reverse, with_known_inks
-from involute.engine.sequence.matching import match_strokes
+from involute.engine.sequence.stroke_matching import match_strokes
 from involute.engine.values import Stroke
 
 BLACK, BLUE = (0, 0, 0), (20, 60, 200)

@@ -6,8 +6,8 @@ import cv2
 import numpy as np
 import pytest
 from involute.engine import Settings
+from involute.engine.fills.solids import split_solids
 from involute.engine.scan import read_scan
-from involute.engine.solids import split_solids
 from involute.engine.values import Scan
 
 SETTINGS = Settings()

@@ -14,7 +14,7 @@ from involute.engine.strokes import Page, build, walk
 from involute.engine.strokes.bezier import fit
 from involute.engine.strokes.simplify import simplify
 from involute.engine.values import PlanarGraph, Stroke
-from involute.training.routing.planar import graph_from_strokes
+from involute.synthesis.true_graph import graph_from_strokes
 
 SHARP = Settings(smoothing=0.0, tolerance=0.0, min_length=0.0)
 

@@ -6,9 +6,9 @@ import cv2
 import numpy as np
 import pytest
 from involute.engine import InvoluteError, Settings
+from involute.engine.ink.unmixing import without_inks
 from involute.engine.scan import read_scan
 from involute.engine.settings import INKS
-from involute.engine.unmixing import without_inks
 
 PAPER = (250, 246, 238)
 COLORS = {

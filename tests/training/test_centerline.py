@@ -12,23 +12,17 @@ torch = pytest.importorskip("torch")
 
 from involute.engine.centerline import backends, onnx_torch  # noqa: E402
 from involute.engine.centerline.backends import load, load_both  # noqa: E402
-from involute.training.centerline import (  # noqa: E402
-    geometry,
-    losses,
-    media,
-    metrics,
-    sample,
-    wear,
-)
+from involute.synthesis import line_art, media, wear  # noqa: E402
+from involute.synthesis.line_art import Library  # noqa: E402
+from involute.training.centerline import losses, page_figures, training_page  # noqa: E402
 from involute.training.centerline.average import main as average  # noqa: E402
-from involute.training.centerline.data import Pages, split  # noqa: E402
-from involute.training.centerline.export import export, folded, worst_difference  # noqa: E402
-from involute.training.centerline.geometry import Library  # noqa: E402
-from involute.training.centerline.model import STRIDE, CenterlineNet, Exported  # noqa: E402
-from involute.training.centerline.restore import restored  # noqa: E402
-from involute.training.centerline.sample import CHANNELS, page  # noqa: E402
+from involute.training.centerline.export_centerline import export, folded, worst_difference  # noqa: E402
+from involute.training.centerline.page_batches import Pages, split  # noqa: E402
+from involute.training.centerline.restore_unet import restored  # noqa: E402
 from involute.training.centerline.targets import targets  # noqa: E402
-from involute.training.centerline.train import main as train  # noqa: E402
+from involute.training.centerline.train_centerline import main as train  # noqa: E402
+from involute.training.centerline.training_page import CHANNELS, page  # noqa: E402
+from involute.training.centerline.unet import STRIDE, CenterlineNet, Exported  # noqa: E402
 
 
 @pytest.fixture(scope="session")
@@ -37,7 +31,7 @@ def drawings(tmp_path_factory) -> Path:
     rng = np.random.default_rng(4)
     strokes, per_drawing = [], []
     for _ in range(40):
-        made = [geometry._spline(rng, 900) for _ in range(rng.integers(1, 5))]
+        made = [line_art._spline(rng, 900) for _ in range(rng.integers(1, 5))]
         strokes += made
         per_drawing.append(len(made))
     folder = tmp_path_factory.mktemp("drawings")
@@ -75,8 +69,8 @@ def test_crossing_touch_and_free_ends():
         line(20.5, 20.5, 20.5, 70),  # touches the first,
         line(45.5, 60, 80, 75),  # a corner with the second
     )
-    junctions = metrics.peaks(maps.junctions, 0.6)
-    ends = metrics.peaks(maps.endpoints, 0.6)
+    junctions = page_figures.peaks(maps.junctions, 0.6)
+    ends = page_figures.peaks(maps.endpoints, 0.6)
     np.testing.assert_allclose(sorted(map(tuple, junctions)), [(20.5, 20), (45.5, 20)], atol=0.5)
     wanted = [(10, 20), (20, 70), (45, 5), (80, 20), (80, 75)]
     near = [min(np.hypot(*(e - (x, y))) for e in ends) for x, y in wanted]
@@ -86,10 +80,10 @@ def test_crossing_touch_and_free_ends():
 
 def test_three_ends_meet_in_a_junction_two_do_not():
     three = maps_of(line(48, 48, 10, 10), line(48, 48, 85, 20), line(48, 48, 40, 90))
-    assert len(metrics.peaks(three.junctions, 0.6)) == 1
+    assert len(page_figures.peaks(three.junctions, 0.6)) == 1
     two = maps_of(line(48, 48, 10, 10), line(48, 48, 85, 20))
-    assert not len(metrics.peaks(two.junctions, 0.6))
-    assert len(metrics.peaks(two.endpoints, 0.6)) == 2
+    assert not len(page_figures.peaks(two.junctions, 0.6))
+    assert len(page_figures.peaks(two.endpoints, 0.6)) == 2
 
 
 @pytest.mark.parametrize("gap", [3.0, 4.0, 6.0])
@@ -116,7 +110,7 @@ def test_where_the_pen_skips_the_centerline_goes_on():
     inks = [media.draw(np.random.default_rng(k), samples, pen, 3.0, 256)[0] for k in range(8)]
     paper = np.mean([ink[127:129, 10:246].max(0) < 0.3 for ink in inks])
     assert 0.01 < paper < 0.4
-    seen = sample._visible(samples.position, inks[0])
+    seen = training_page._visible(samples.position, inks[0])
     maps = targets(samples.take(seen), np.full(np.count_nonzero(seen), 1.5), 256)
     assert maps.centerline[127:129, 10:246].max(0).min() > 0.6
 

@@ -11,14 +11,14 @@ import pytest
 pytest.importorskip("shapely", reason="training needs Shapely")
 pytest.importorskip("torch", reason="training needs torch")
 
-from involute.training.centerline.geometry import SET_WEIGHTS
-from involute.training.centerline.geometry import Library as CenterlineLibrary
-from involute.training.drawings import pages as held_out_pages
-from involute.training.drawings.library import family, is_held_out, read_sets
-from involute.training.graph import undrawn
+from involute.synthesis import held_out_pages
+from involute.synthesis.composed_pages import SOURCES
+from involute.synthesis.composed_pages import Library as RoutingLibrary
+from involute.synthesis.library import family, is_held_out, read_sets
+from involute.synthesis.line_art import SET_WEIGHTS
+from involute.synthesis.line_art import Library as CenterlineLibrary
 from involute.training.routing import geometric_fit, traced
-from involute.training.routing.pages import SOURCES
-from involute.training.routing.pages import Library as RoutingLibrary
+from involute.training.undrawn import train_undrawn
 
 NAMES = ["openclipart", "streamline", "quickdraw_raw"]
 WORDS = ("abbot", "bear", "cedar", "dune", "elk", "fig", "gate", "hat", "ice", "jar")
@@ -83,7 +83,7 @@ def test_no_drawing_is_on_both_sides_of_any_two_consumers(folder: Path) -> None:
 
 def test_all_other_pages_come_out_of_these_libraries() -> None:
     assert held_out_pages.Library is RoutingLibrary
-    assert undrawn.Library is RoutingLibrary
+    assert train_undrawn.Library is RoutingLibrary
     assert traced.Library is RoutingLibrary
     assert set(SOURCES) == set(SET_WEIGHTS)
 

@@ -11,13 +11,14 @@ import pytest
 pytest.importorskip("shapely", reason="training needs Shapely")
 pytest.importorskip("torch", reason="training needs torch")
 
-from involute.training.centerline import marks, rough, sample, tone
-from involute.training.centerline.doubled import UNKNOWN, doubled
-from involute.training.centerline.geometry import Library
-from involute.training.centerline.media import DIGITAL, MEDIA, NUDGE, draw
-from involute.training.centerline.media import sample as samples_of
-from involute.training.centerline.sample import CHANNELS, KINDS, Layer, page
+from involute.synthesis import extra_marks, pencilling, tone_dots
+from involute.synthesis.line_art import Library, _spline
+from involute.synthesis.media import DIGITAL, MEDIA, NUDGE, draw
+from involute.synthesis.media import sample as samples_of
+from involute.training.centerline import training_page
+from involute.training.centerline.lines_together import UNKNOWN, doubled
 from involute.training.centerline.targets import ridge, targets
+from involute.training.centerline.training_page import CHANNELS, KINDS, Layer, page
 
 CHANNEL = {name: number for number, name in enumerate(CHANNELS)}
 
@@ -25,8 +26,6 @@ CHANNEL = {name: number for number, name in enumerate(CHANNELS)}
 @pytest.fixture(scope="module")
 def library(tmp_path_factory: pytest.TempPathFactory) -> Library:
     """Sixty drawings of a few smooth strokes."""
-    from involute.training.centerline.geometry import _spline
-
     rng = np.random.default_rng(4)
     drawings = [[_spline(rng, 900) for _ in range(rng.integers(2, 6))] for _ in range(60)]
     strokes = [stroke for drawing in drawings for stroke in drawing]
@@ -71,26 +70,26 @@ def test_lines_of_one_bit_have_no_grey_and_no_gap(width: float, ends: tuple[floa
 
 def test_printed_rules_are_lines(library: Library) -> None:
     rng = np.random.default_rng(3)
-    layer = sample._printed(rng, 192)
-    maps, means = sample._targets([layer], layer.ink)
+    layer = training_page._printed(rng, 192)
+    maps, means = training_page._targets([layer], layer.ink)
     assert (maps.centerline > 0.6).sum() > 192
     np.testing.assert_array_equal(means, maps.centerline)
 
 
 def test_screentone_has_no_target_and_lines_through_it_keep_theirs() -> None:
-    dots = tone.screentone(np.random.default_rng(1), 192, hard=True)
+    dots = tone_dots.screentone(np.random.default_rng(1), 192, hard=True)
     assert dots.any()
     samples = samples_of([line(10, 96, 180, 96)], 192)
     ink, half = draw(np.random.default_rng(0), samples, DIGITAL["one bit"], 3.0, 192)
-    alone, _ = sample._targets([Layer(samples, half, ink)], np.maximum(ink, dots))
+    alone, _ = training_page._targets([Layer(samples, half, ink)], np.maximum(ink, dots))
     np.testing.assert_array_equal(alone.centerline, ridge(samples, 192))
 
 
 def test_rough_strokes_cover_the_line_and_stay_near_it() -> None:
     rng = np.random.default_rng(2)
     true = line(20, 60, 230, 110)
-    hand = rough.Hand(4.0, 2.0, 1.0, 80.0, 4.0)
-    strokes, press = rough.pencilled(rng, [true], hand)
+    hand = pencilling.Hand(4.0, 2.0, 1.0, 80.0, 4.0)
+    strokes, press = pencilling.pencilled(rng, [true], hand)
     assert len(strokes) == len(press) > 4
     assert 0 < press.min() <= press.max() <= 1
     points = np.concatenate(strokes)
@@ -110,7 +109,7 @@ def test_a_sketch_means_its_true_lines_and_construction_means_nothing() -> None:
     for drawn, means in ((pencil, true), (axis, None)):
         ink, half = draw(np.random.default_rng(1), drawn, MEDIA["technical pen"], 2.0, size)
         layers.append(Layer(drawn, half, ink, means, is_rough=True))
-    maps, means = sample._targets(layers, np.maximum(layers[0].ink, layers[1].ink))
+    maps, means = training_page._targets(layers, np.maximum(layers[0].ink, layers[1].ink))
     np.testing.assert_array_equal(means, ridge(true, size))
     assert maps.centerline[100, 62:66].max() > 0.8
     assert maps.centerline[61:64, 30].max() > 0.8
@@ -141,13 +140,15 @@ def test_what_lies_long_under_a_wide_pen_has_no_target() -> None:
         drawn = samples_of([stroke], size)
         ink, half = draw(np.random.default_rng(1), drawn, DIGITAL["crisp"], pen, size)
         layers.append(Layer(drawn, half, ink))
-    hidden = sample._hidden(layers[1], layers)
+    hidden = training_page._hidden(layers[1], layers)
     assert hidden[60:-60].all()
     across = samples_of([line(96, 10, 96, 182)], size)
-    assert not sample._hidden(Layer(across, np.full(len(across), 1.0), layers[1].ink), layers).any()
+    assert not training_page._hidden(
+        Layer(across, np.full(len(across), 1.0), layers[1].ink), layers
+    ).any()
 
 
-@pytest.mark.parametrize("kind", [*marks.MARKS, marks.printed])
+@pytest.mark.parametrize("kind", [*extra_marks.MARKS, extra_marks.printed])
 def test_marks_are_strokes_near_the_page(kind) -> None:
     for seed in range(20):
         strokes, widest = kind(np.random.default_rng(seed), 384)
@@ -162,7 +163,7 @@ def test_marks_are_strokes_near_the_page(kind) -> None:
 def test_rows_lie_along_pixels_more_often_than_not() -> None:
     exact = 0
     for seed in range(40):
-        strokes, _ = marks.rows(np.random.default_rng(seed), 384)
+        strokes, _ = extra_marks.rows(np.random.default_rng(seed), 384)
         step = strokes[0][-1] - strokes[0][0]
         exact += bool(np.abs(step).min() < 1e-3 * np.abs(step).max())
     assert exact > 15

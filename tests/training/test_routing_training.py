@@ -16,21 +16,21 @@ pytest.importorskip("scipy", reason="training needs SciPy")
 import torch
 from involute.engine.routing import network
 from involute.engine.routing.encoding import PAIR_SIZE, TOKEN_SIZE
-from involute.engine.routing.matching import pair_matrix
+from involute.engine.routing.involution import pair_matrix
 from involute.engine.settings import Settings
+from involute.synthesis.composed_pages import Library, net
+from involute.synthesis.true_graph import graph_from_strokes
 from involute.training.routing.augment import Page, _tips, augmented, contracted, random_fixed
-from involute.training.routing.data import Bank, encoded, joined, true_page
-from involute.training.routing.export import calibrate, export, load
+from involute.training.routing.export_routing import calibrate, export, load
+from involute.training.routing.graph_bank import Bank, encoded, joined, true_page
 from involute.training.routing.judge import judge
 from involute.training.routing.labels import labelled, unowned
 from involute.training.routing.likelihood import exact, sinkhorn
-from involute.training.routing.model import RoutingNet
-from involute.training.routing.pages import Library, net
-from involute.training.routing.planar import graph_from_strokes
-from involute.training.routing.restore import restored
+from involute.training.routing.restore_transformer import restored
+from involute.training.routing.set_transformer import RoutingNet
 from involute.training.routing.traced import graph_of, look_ideal, look_scan, save
 from involute.training.routing.traced import load as load_traced
-from involute.training.routing.train import run, train
+from involute.training.routing.train_routing import run, train
 from involute.training.routing.widen import widened
 
 seeds = st.integers(0, 2**32 - 1)

@@ -8,9 +8,9 @@ import pytest
 pytest.importorskip("torch", reason="training needs torch")
 pytest.importorskip("scipy", reason="training needs SciPy")
 
-from involute.engine.graph.undrawn import FEATURES, probability
+from involute.engine.graph.removal.undrawn import FEATURES, probability
 from involute.engine.values import PlanarGraph
-from involute.training.graph.undrawn import _on_dots, _stipple, train
+from involute.training.undrawn.train_undrawn import _on_dots, _stipple, train
 
 
 def test_what_is_trained_is_what_the_engine_runs() -> None:

@@ -8,9 +8,9 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from .export import export, worst_difference
-from .model import CenterlineNet
-from .restore import restored
+from .export_centerline import export, worst_difference
+from .restore_unet import restored
+from .unet import CenterlineNet
 
 
 def main(arguments: list[str] | None = None) -> None:

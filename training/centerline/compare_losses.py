@@ -14,12 +14,12 @@ from pathlib import Path
 import numpy as np
 import torch
 
-from . import train
-from .data import validation_pages
-from .geometry import Array
+from ...synthesis.line_art import Array
+from . import train_centerline
 from .losses import CENTERLINE_LOSSES
-from .metrics import page_figures, pooled
-from .restore import restored
+from .page_batches import validation_pages
+from .page_figures import page_figures, pooled
+from .restore_unet import restored
 
 LEVELS = (0.15, 0.25, 0.35, 0.45, 0.55)
 
@@ -37,7 +37,9 @@ def main(arguments: list[str] | None = None) -> None:
         run = options.run / loss
         if not (run / "done").exists():
             common = ["--data", str(options.data), "--steps", str(options.steps)]
-            train.main([*common, "--minutes", "1e9", "--run", str(run), "--loss", loss, *others])
+            train_centerline.main(
+                [*common, "--minutes", "1e9", "--run", str(run), "--loss", loss, *others]
+            )
             (run / "done").touch()
         rows[loss] = judge(run / "checkpoint.pt", check)
     columns = list(next(iter(rows.values())))

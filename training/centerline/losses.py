@@ -8,7 +8,7 @@ import torch
 from torch import Tensor
 from torch.nn import functional
 
-from .doubled import UNKNOWN
+from .lines_together import UNKNOWN
 from .targets import MAX_HALF_WIDTH
 
 

@@ -10,11 +10,11 @@ from pathlib import Path
 
 import numpy as np
 from involute.engine.centerline.backends import Infer, load
-from involute.engine.centerline.network import WEIGHTS
+from involute.engine.centerline.learned import WEIGHTS
 
-from .geometry import Array, Rng
-from .media import Medium, draw, sample
-from .metrics import peaks, ridge_points
+from ...synthesis.line_art import Array, Rng
+from ...synthesis.media import Medium, draw, sample
+from .page_figures import peaks, ridge_points
 
 SIZE = 256
 _PEN = Medium((3.0, 3.0), density=(1.0, 1.0), fade=(0.0, 0.0), swell=(0.0, 0.0), ragged=(0.0, 0.0))

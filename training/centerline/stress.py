@@ -13,12 +13,12 @@ from pathlib import Path
 import cv2
 import numpy as np
 from involute.engine.centerline.backends import load
-from involute.engine.centerline.network import WEIGHTS, trace_maps
-from involute.engine.scan import flatten_paper
+from involute.engine.centerline.learned import WEIGHTS, trace_maps
+from involute.engine.scan.paper import flatten_paper
 
-from .geometry import Array, Library, Rng, Strokes, parallels, scribble, true_drawing
-from .media import MEDIA, Medium, draw, sample
-from .paper import paper, print_on, scan, shadow
+from ...synthesis.line_art import Array, Library, Rng, Strokes, parallels, scribble, true_drawing
+from ...synthesis.media import MEDIA, Medium, draw, sample
+from ...synthesis.sheet_of_paper import paper, print_on, scan, shadow
 
 SIZE = 360
 GAP = 10

@@ -6,12 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 import shapely
-from involute.engine.centerline.network import HALF_WIDTH_UNIT
+from involute.engine.centerline.learned import HALF_WIDTH_UNIT
 from scipy.spatial import cKDTree
 
-from .doubled import doubled
-from .geometry import Array
-from .media import STEP, Samples, nearest
+from ...synthesis.line_art import Array
+from ...synthesis.media import STEP, Samples, nearest
+from .lines_together import doubled
 
 RIDGE_SIGMA = 0.8  # px; a ridge about 2 px wide keeps a valley between lines 3 px apart
 SPOT_SIGMA = 1.5  # px, of a junction or an endpoint
@@ -23,7 +23,7 @@ _MIN_ANGLE = np.sin(np.deg2rad(8))  # shallower crossings have no definite place
 @dataclass(frozen=True)
 class Targets:
     """(size, size) float32 maps; see `engine.values.LineMaps`. half_width and apart are px, 0 off
-    the lines; doubled is `doubled.UNKNOWN` where nobody can tell."""
+    the lines; doubled is `lines_together.UNKNOWN` where nobody can tell."""
 
     centerline: Array
     junctions: Array

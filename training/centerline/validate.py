@@ -14,14 +14,14 @@ import cv2
 import numpy as np
 from involute.engine.centerline.backends import load
 from involute.engine.centerline.classical import classical
-from involute.engine.centerline.network import HALF_WIDTH_UNIT, WEIGHTS, trace_maps
-from involute.engine.scan import measure_pen
+from involute.engine.centerline.learned import HALF_WIDTH_UNIT, WEIGHTS, trace_maps
+from involute.engine.scan.preparing import measure_pen
 from involute.engine.values import LineMaps, Scan
 
-from .geometry import Array, Library
-from .media import MEDIA
-from .metrics import page_figures, pooled
-from .sample import KINDS, page
+from ...synthesis.line_art import Array, Library
+from ...synthesis.media import MEDIA
+from .page_figures import page_figures, pooled
+from .training_page import KINDS, page
 
 SIZE = 512
 

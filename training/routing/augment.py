@@ -14,7 +14,7 @@ from involute.engine.values import Pair, PlanarGraph
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
-from .planar import dissolve
+from ...synthesis.true_graph import dissolve
 
 Array = np.ndarray
 

@@ -21,15 +21,15 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+from involute.engine.routing.candidates import by_degree, candidate_pairs, pair_starts
 from involute.engine.routing.features import FEATURES, pair_features
-from involute.engine.routing.halves import by_degree, candidate_pairs, pair_starts
-from involute.engine.routing.matching import pair_matrix
+from involute.engine.routing.involution import pair_matrix
 from involute.engine.values import PlanarGraph
 from scipy.optimize import minimize
 
-from ..drawings.library import DrawingSet, read_sets
+from ...synthesis.library import DrawingSet, read_sets
+from ...synthesis.true_graph import graph_from_strokes
 from . import traced
-from .planar import graph_from_strokes
 
 Array = np.ndarray
 # Per number of half-branches: features (n, P, F), the true involution (n,), weight (n,).

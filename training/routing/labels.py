@@ -16,8 +16,8 @@ from involute.engine.routing.encoding import along
 from involute.engine.values import PlanarGraph
 from scipy.spatial import cKDTree
 
+from ...synthesis.true_graph import single_lines
 from .augment import Page
-from .planar import single_lines
 
 Array = np.ndarray
 

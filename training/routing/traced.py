@@ -17,17 +17,17 @@ from pathlib import Path
 import cv2
 import numpy as np
 from involute.engine.centerline import provider_for
+from involute.engine.fills.solids import split_solids
 from involute.engine.graph import build_graph, measure, sweep
-from involute.engine.scan import MIN_SIDE, read_scan
+from involute.engine.scan.preparing import MIN_SIDE, read_scan
 from involute.engine.settings import Settings
-from involute.engine.solids import split_solids
 from involute.engine.values import LineMaps, PlanarGraph, Scan
 
-from ..centerline.media import MEDIA, draw, line_spacing, sample
-from ..centerline.paper import paper, scan, shadow
+from ...synthesis.composed_pages import Library, loosened
+from ...synthesis.media import MEDIA, draw, line_spacing, sample
+from ...synthesis.sheet_of_paper import paper, scan, shadow
 from .augment import Page
 from .labels import labelled, unowned
-from .pages import Library, loosened
 
 Array = np.ndarray
 

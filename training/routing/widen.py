@@ -10,7 +10,7 @@ from __future__ import annotations
 import torch
 from torch import Tensor
 
-from .model import RoutingNet
+from .set_transformer import RoutingNet
 
 _UNEVEN = 0.2  # how unevenly a unit hears its two sources, relative to their mean
 

@@ -1,0 +1,160 @@
+"""What the Blender side costs: `python -m benchmarks.blender_costs` (needs bpy) prints a table.
+
+CPU time of this process, the median of several runs, on drawings traced from woven pages. Where
+there is a display and a `blender`, what the overlay adds to a redraw is measured there, too.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+import time
+from collections.abc import Callable
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import bpy
+import cv2
+import numpy as np
+from involute import package
+from involute.engine import Drawing, Settings, Stroke, vectorize
+from involute.operators.grease_pencil import routing_change, state, writing
+from involute.operators.grease_pencil.core.pixel_map import front_view
+from involute.operators.tracing.trace import new_object
+from involute.operators.view.junction_table import JunctionTable
+from involute.ui.overlay import colors, overlay_geometry
+
+_RUNS = 7
+_HEADLESS = 4  # rows that need no window
+_ROOT = Path(__file__).resolve().parents[1]
+
+
+Row = tuple[str, float, float]
+
+
+def main() -> None:
+    """Print milliseconds of CPU beside what they are allowed to be."""
+    print(report())
+
+
+def report() -> str:
+    """The table as text."""
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    rows = [write_ten_thousand(), reroute_among(500), overlay_of(2000), look_up(125), *redraw()]
+    lines = [f"{what:58} {milliseconds:8.2f} {limit:8.0f}" for what, milliseconds, limit in rows]
+    if len(rows) == _HEADLESS:
+        lines.append("idle redraw: not measured, there is no display or no blender")
+    return "\n".join([f"{'what':58} {'ms':>8} {'at most':>8}", *lines])
+
+
+def write_ten_thousand() -> Row:
+    """10,000 strokes of 50 points into Grease Pencil."""
+    random = np.random.default_rng(0)
+    lines = random.uniform(0, 1000, (10_000, 50, 2)).astype(np.float32)
+    full = np.ones(50, np.float32)
+    none = np.zeros(0, np.int32)
+    strokes = tuple(Stroke(line, 2 * full, full, False, (0, 0, 0), none) for line in lines)
+    blank = vectorize(np.ones((64, 64)), Settings(provider="classical", router="geometric"))
+    drawing = Drawing(blank.graph, blank.routing, strokes, (), (1000, 1000), blank.settings)
+
+    def write() -> None:
+        data = new_object("Many").data
+        writing.write(data, 1, drawing, front_view(drawing.size), 1)
+
+    return "write 10,000 strokes of 50 points", _milliseconds(write), 200
+
+
+def reroute_among(strokes: int) -> Row:
+    """One reroute in a drawing of many strokes: engine, Grease Pencil and stored state."""
+    drawing = woven(24)
+    ends = iter(np.random.default_rng(0).permutation(len(drawing.junctions)).tolist())
+    while len(drawing.strokes) < strokes:
+        drawing = drawing.reroute(next(ends), ())
+    data, place = new_object("Woven").data, front_view(drawing.size)
+    key = state.add(data, drawing, place, "woven")
+    writing.write(data, 1, drawing, place, key)
+    junctions = iter(drawing.junctions)
+
+    def reroute() -> None:
+        junction = next(j for j in junctions if len(j.alternatives) > 2)
+        pairs = next(a.pairs for a in junction.alternatives if a.pairs != junction.pairs)
+        routing_change.change_routing(data, 1, key, lambda d: d.reroute(junction.index, pairs))
+
+    reroute()
+    return f"reroute one junction of {len(drawing.strokes)} strokes", _milliseconds(reroute), 30
+
+
+def overlay_of(junctions: int) -> Row:
+    """The rings of all junctions, made anew."""
+    drawing = woven(int(np.ceil(np.sqrt(junctions))))
+    place, scale = front_view(drawing.size), (colors.SURE, colors.DOUBTFUL, colors.LOCKED)
+    _ = drawing.junctions  # found when the drawing was traced
+
+    def rebuild() -> None:
+        shape = overlay_geometry.rings(JunctionTable.of(drawing), 4.0, scale)
+        place.to_object(shape.points)
+
+    return f"overlay of {len(drawing.junctions)} junctions", _milliseconds(rebuild), 20
+
+
+def look_up(junctions: int) -> Row:
+    """What a redraw looks up when nothing changed."""
+    drawing = woven(int(np.ceil(np.sqrt(junctions))))
+    data, place = new_object("Still").data, front_view(drawing.size)
+    key = state.add(data, drawing, place, "still")
+    writing.write(data, 1, drawing, place, key)
+
+    def redraw() -> None:
+        (found,) = state.keys_at(data, 1)
+        state.load(data, found)
+
+    redraw()
+    return f"look-ups of a redraw, {len(drawing.junctions)} junctions", _milliseconds(redraw), 1
+
+
+def redraw() -> list[Row]:
+    """What the overlay adds to an idle redraw of a real scan, without OpenGL: see `redraw.py`."""
+    blender = shutil.which("blender")
+    if blender is None or not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY")):
+        return []
+    with TemporaryDirectory() as temporary:
+        archive = package.build(package.host_platform(), Path(temporary))
+        result = Path(temporary, "redraw.json")
+        files = archive, _ROOT / "examples" / "hippopotamus.jpg", result
+        script = ["-P", _ROOT / "benchmarks" / "redraw.py", "--", *files]
+        subprocess.run(
+            [blender, "--factory-startup", *map(str, script)], check=True, capture_output=True
+        )
+        states = json.loads(result.read_text("utf-8"))
+    return [
+        (f"idle redraw, {state}", states[state]["handlers again"], 1)
+        for state in ("no junction", "a junction", "its cards")
+    ]
+
+
+def woven(lines: int) -> Drawing:
+    """A page of wavy lines both ways, traced: about lines * lines crossings."""
+    side = 30 * (lines + 1)
+    paper = np.full((side, side), 255, np.uint8)
+    t = np.arange(side)
+    for k in range(1, lines + 1):
+        wave = 30 * k + 4 * np.sin(t / 40 + k)
+        for curve in (np.stack([t, wave], 1), np.stack([wave, t], 1)):
+            points = np.round(curve * 16).astype(np.int32).reshape(-1, 1, 2)
+            cv2.polylines(paper, [points], False, 0, 3, cv2.LINE_AA, 4)
+    return vectorize(paper, Settings(provider="classical", router="geometric"))
+
+
+def _milliseconds(work: Callable[[], None]) -> float:
+    times = []
+    for _ in range(_RUNS):
+        start = time.process_time()
+        work()
+        times.append(time.process_time() - start)
+    return 1e3 * float(np.median(times))
+
+
+if __name__ == "__main__":
+    main()

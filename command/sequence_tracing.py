@@ -1,0 +1,95 @@
+"""A sequence of images -> one drawing per frame, traced in parallel, handed out in order."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from os import PathLike
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from ..engine.drawing import Drawing
+from ..engine.errors import InvoluteError
+from ..engine.sequence.follow import Follower
+from ..engine.sequence.frames import Frame
+from ..engine.settings import Settings
+from . import batch
+from .planning import make_folder
+
+Progress = Callable[[Frame, batch.Outcome], None]
+
+
+def trace_sequence(
+    frames: Sequence[Frame],
+    settings: Settings | None = None,
+    *,
+    jobs: int = 0,
+    parts: str | PathLike[str] | None = None,
+    follow: bool = True,
+    progress: Progress | None = None,
+) -> Iterator[tuple[int, Drawing | InvoluteError]]:
+    """Trace every frame; yields (frame, drawing) in the order of the frames.
+
+    A frame that fails yields its error and stops nothing. Closing the iterator stops the work.
+
+    Args:
+        frames: see `frames.number_frames`.
+        jobs: processes at once; 0 = one per CPU core.
+        parts: a folder that keeps the drawing of every frame, as frame NUMBER.json; frames that are
+            there and whose image and settings have not changed are not traced again. None = a
+            temporary folder.
+        follow: give neighbouring frames the same order and direction of strokes.
+        progress: called for every image as soon as it is done, in no fixed order; may raise
+            `Cancelled`.
+
+    Raises:
+        InvoluteError: a parts folder that can't be made.
+    """
+    if parts is None:
+        with TemporaryDirectory(prefix="involute-") as folder:
+            yield from trace_sequence(
+                frames, settings, jobs=jobs, parts=folder, follow=follow, progress=progress
+            )
+        return
+    tasks = part_tasks(frames, settings or Settings(), parts)
+    numbers = {task: k for k, task in enumerate(tasks)}
+    follower = Follower()
+    done: dict[int, batch.Outcome] = {}
+    following = 0
+    for outcome in batch.run(tasks, jobs=jobs, resume=True):
+        done[numbers[outcome.task]] = outcome
+        if progress:
+            progress(frames[numbers[outcome.task]], outcome)
+        while following in done:
+            drawing = _drawing(done.pop(following))
+            if follow and isinstance(drawing, Drawing):
+                drawing = follower(drawing)
+            yield frames[following].frame, drawing
+            following += 1
+
+
+def part_tasks(
+    frames: Sequence[Frame], settings: Settings, parts: str | PathLike[str]
+) -> list[batch.Task]:
+    """What to trace for which file of the parts folder; the folder is made.
+
+    Raises:
+        InvoluteError: the folder can't be made.
+    """
+    folder = make_folder(Path(parts))
+    return [batch.Task(f.path, (str(folder / part_name(f)),), settings, f.page) for f in frames]
+
+
+def part_name(frame: Frame) -> str:
+    """The file that holds a frame's drawing before the parts are joined."""
+    return f"{frame.number:06d}.json"
+
+
+def _drawing(outcome: batch.Outcome) -> Drawing | InvoluteError:
+    if outcome.error:
+        return InvoluteError(outcome.error)
+    part = outcome.task.outputs[0]
+    try:
+        return Drawing.load(part)
+    except InvoluteError:  # damaged since: make it anew
+        reply = batch.perform(outcome.task, receipt=True)
+        return InvoluteError(reply["error"]) if "error" in reply else Drawing.load(part)

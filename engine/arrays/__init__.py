@@ -1,0 +1,1 @@
+"""Small tools for arrays that several stages use."""

@@ -1,0 +1,1 @@
+"""What is filled rather than drawn: solid blacks, closed regions, and their colours."""

@@ -1,0 +1,1 @@
+"""What goes from a graph because it is no stroke: one file for each reason."""

@@ -1,0 +1,163 @@
+"""Branches that nobody drew: rungs between close lines, hooks at thick ends, crumbs of grain.
+
+`cleanup` takes away what a rule can name. What is left is judged by a small network from how long
+and how bright a branch is, how it lies to its neighbours, and what the other maps see at its ends.
+It was trained on traced pages whose true strokes are known (training/graph), and says for every
+branch how probable it is that no stroke made it.
+"""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Mapping
+from functools import cache
+
+import cv2
+import numpy as np
+
+from ... import weights
+from ...arrays.sampling import sample
+from ...values import LineMaps, PlanarGraph
+from ..continuations import pairs_within
+from ..topology import join, lengths, means, select
+from .spurs import seen_near
+
+Array = np.ndarray
+
+WEIGHTS = weights.FOLDER / "undrawn.npz"
+SURE = 0.5  # probability from which on a branch goes
+FEATURES = 11 + 2 * 11  # of a branch: its own, and those of its two ends
+_LOOK = 6  # points of a branch that tell its direction
+LONGEST = 5.0  # pen widths; a longer branch stays, whatever is thought of it
+_AROUND = 25  # px; side of the square in which junctions are counted
+
+
+def drop_undrawn(graph: PlanarGraph, value: Array, maps: LineMaps, pen_width: float) -> PlanarGraph:
+    """The graph without the short branches that were most probably never drawn.
+
+    Without the maps of a network, or without weights, the graph stays as it is.
+
+    Args:
+        graph: points about 1 px apart.
+        value: (H, W) the smoothed centerline map.
+        maps: what the centerline provider saw.
+        pen_width: typical width of a line, px.
+
+    Raises:
+        InvoluteError: the weights are damaged.
+    """
+    needed = (maps.junctions, maps.endpoints, maps.half_width, maps.solid)
+    unseen = any(seen is None for seen in needed)
+    if graph.branch_count == 0 or unseen or not WEIGHTS.exists():
+        return graph
+    false = probability(features(graph, value, maps, pen_width)) > SURE
+    false &= lengths(graph) < LONGEST * pen_width
+    return join(select(graph, ~false)) if false.any() else graph
+
+
+def probability(rows: Array, net: Mapping[str, Array] | None = None) -> Array:
+    """(B,) that no stroke made a branch, from its (B, F) features; net: other weights."""
+    net = net or _net()
+    hidden = (rows - net["mean"]) / net["spread"]
+    for layer in range(len(net) // 2 - 1):
+        hidden = hidden @ net[f"weight{layer}"] + net[f"bias{layer}"]
+        if f"weight{layer + 1}" in net:
+            hidden = np.maximum(hidden, 0)
+    return 1 / (1 + np.exp(-np.clip(hidden[:, 0], -50, 50)))
+
+
+@cache
+def _net() -> dict[str, Array]:
+    with np.load(io.BytesIO(weights.read(WEIGHTS))) as file:
+        return {name: file[name].astype(np.float64) for name in file.files}
+
+
+def features(graph: PlanarGraph, value: Array, maps: LineMaps, pen_width: float) -> Array:
+    """(B, F) float64: what tells a branch that was drawn from one that was not."""
+    length = lengths(graph)
+    bright = sample(value, graph.points).astype(np.float64)
+    mean = means(graph, bright)
+    least, most = (how.reduceat(bright, graph.offsets[:-1]) for how in (np.minimum, np.maximum))
+    width = 2 * means(graph, sample(maps.half_width, graph.points)) / pen_width
+    solid = means(graph, sample(maps.solid, graph.points))
+    chord = np.hypot(*(graph.vertices[graph.ends[:, 0]] - graph.vertices[graph.ends[:, 1]]).T)
+    ends = _at_ends(graph, mean, length, maps)
+    # Both ends tell the same things: the smaller and the larger of each.
+    both = ends.reshape(-1, 2, ends.shape[1])
+    alone = [
+        np.log(np.maximum(length, 0.5)),
+        np.log(np.maximum(length, 0.5) / pen_width),
+        mean,
+        least,
+        most,
+        least / np.maximum(mean, 1e-3),
+        width,
+        solid,
+        chord / np.maximum(length, 1e-3),
+        (graph.ends[:, 0] == graph.ends[:, 1]),
+        np.log(np.full(len(length), pen_width)),
+    ]
+    return np.column_stack([*alone, both.min(1), both.max(1)])
+
+
+def _at_ends(graph: PlanarGraph, mean: Array, length: Array, maps: LineMaps) -> Array:
+    """(2B, E): how each half-branch lies at its vertex, and what is seen there."""
+    vertex = graph.half_vertex
+    degree = graph.degrees[vertex]
+    out = _directions(graph)
+    a, b = pairs_within(np.where(degree >= 3, vertex, -1)).T
+    turn = (out[a] * out[b]).sum(1)
+    straight, beside = np.full(len(vertex), -1.0), np.full(len(vertex), -1.0)
+    for one in (a, b):
+        np.maximum.at(straight, one, -turn)
+        np.maximum.at(beside, one, turn)
+    # How well the others run past this one: the straightest pair that it is no part of.
+    order = np.lexsort((turn, vertex[a]))
+    first = np.flatnonzero(np.diff(vertex[a][order], prepend=-1))
+    best = np.full((len(graph.vertices), 3), -1.0)
+    best[vertex[a[order[first]]]] = np.stack(
+        [-turn[order[first]], a[order[first]], b[order[first]]], 1
+    )
+    mine = (best[vertex, 1:] == np.arange(len(vertex))[:, None]).any(1)
+    past = np.where(mine, -1.0, best[vertex, 0])
+    # The brightest and the longest neighbour.
+    bright, long = np.zeros(len(vertex)), np.zeros(len(vertex))
+    for one, other in ((a, b), (b, a)):
+        np.maximum.at(bright, one, mean[other >> 1])
+        np.maximum.at(long, one, length[other >> 1])
+    own = np.repeat(mean, 2) / np.maximum(np.where(bright > 0, bright, np.repeat(mean, 2)), 1e-3)
+    joints, tips = seen_near(maps.junctions, 5), seen_near(maps.endpoints, 7)
+    place = graph.vertices[vertex]
+    return np.column_stack(
+        [
+            degree == 1,
+            degree == 3,
+            degree >= 5,
+            sample(joints, place),
+            sample(tips, place),
+            straight,
+            beside,
+            past,
+            own,
+            np.log1p(long),
+            sample(_crowd(graph, maps.centerline.shape), place),
+        ]
+    )
+
+
+def _directions(graph: PlanarGraph) -> Array:
+    """(2B, 2) unit vectors in which the half-branches leave their vertices."""
+    size = np.minimum(np.diff(graph.offsets) - 1, _LOOK)
+    start, stop = graph.offsets[:-1], graph.offsets[1:] - 1
+    ahead = graph.points[start + size].astype(np.float64) - graph.points[start]
+    back = graph.points[stop - size].astype(np.float64) - graph.points[stop]
+    way = np.stack([ahead, back], 1).reshape(-1, 2)
+    return way / np.maximum(np.hypot(*way.T), 1e-9)[:, None]
+
+
+def _crowd(graph: PlanarGraph, shape: tuple[int, ...]) -> Array:
+    """(H, W) float32: log of how many junctions there are around."""
+    count = np.zeros(shape, np.float32)
+    column, row = graph.vertices[graph.junctions].astype(np.int64).T
+    np.add.at(count, (np.clip(row, 0, shape[0] - 1), np.clip(column, 0, shape[1] - 1)), 1)
+    return np.log1p(cv2.boxFilter(count, -1, (_AROUND, _AROUND), normalize=False))

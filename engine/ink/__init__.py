@@ -1,0 +1,1 @@
+"""Ink: its colour, its density, and which ink a line was drawn with."""

@@ -1,0 +1,84 @@
+"""How dense the ink of a line is, and which lines are pencil under ink."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..values import PlanarGraph
+from .tint import NEUTRAL, branch_colors, tint
+
+Array = np.ndarray
+
+_SOFT = 0.8  # px; how far a scanner spreads the ink of a line
+_FAINTER = 0.65  # of the ink's strength: what pencil under it is at most
+_BETWEEN = (0.2, 0.7)  # of the lines, how much may be neither: 0.2 for each 1 below 0.7 of the ink
+_LEAST = 0.1  # of the lines: what pencil, or ink, must have; less may be dirt, or badly printed
+_INNER = 0.2  # of a branch at either end: other lines are near
+
+
+def undimmed(strength: Array, widths: Array) -> Array:
+    """(P,) strength of the ink itself: a thin line is not faint because a scanner blurs it.
+
+    Args:
+        strength: (P,) darkness in [0, 1] of lines that are `widths` (P,) px wide.
+    """
+    half = np.maximum(widths, 0.5) / (2**1.5 * _SOFT)
+    peak = np.sqrt(1 - np.exp(-half * half * 4 / np.pi))  # erf, to one percent
+    return np.asarray(strength, np.float64) / peak
+
+
+def pencil(graph: PlanarGraph, chosen: Array, length: Array) -> tuple[Array, float]:
+    """Tell pencil from the ink that was drawn over it.
+
+    A page has both when the strengths of its lines form two clusters, one much fainter than the
+    other, with the less between them the less they differ. One cluster, however wide, is one
+    medium: hardly and firmly drawn pencil stays together.
+
+    Args:
+        chosen: (B,) bool, the branches to look at: black and grey ones.
+        length: (B,) px of each branch.
+
+    Returns:
+        (B,) bool, the branches that are pencil; and how strong it is beside the ink, 1 = as strong.
+    """
+    found = np.zeros(graph.branch_count, bool)
+    if graph.strength is None or graph.widths is None or chosen.sum() < 2:
+        return found, 1.0
+    strength = _of_branches(graph)
+    order = np.flatnonzero(chosen)[np.argsort(strength[chosen], kind="stable")]
+    value, weight = strength[order], length[order] + 1e-6
+    below, mass = np.cumsum(weight), np.cumsum(weight * value)
+    above = below[-1] - below[:-1]
+    faint, strong = mass[:-1] / below[:-1], (mass[-1] - mass[:-1]) / above
+    # The split that leaves the least variance on both sides (Otsu 1979).
+    split = int((below[:-1] * above * (strong - faint) ** 2).argmax())
+    low, high = float(faint[split]), float(strong[split])
+    third = (high - low) / 3
+    between = weight[(value > low + third) & (value < high - third)].sum()
+    told_apart = (
+        low < _FAINTER * high
+        and between < _BETWEEN[0] * (_BETWEEN[1] - low / high) * below[-1]
+        and min(below[split], above[split]) > _LEAST * below[-1]
+    )
+    if not told_apart:
+        return found, 1.0
+    found[order[: split + 1]] = True
+    return found, low / high
+
+
+def neutral(graph: PlanarGraph) -> Array:
+    """(B,) bool, the branches that are black or grey."""
+    if graph.colors is None or graph.branch_count == 0:
+        return np.ones(graph.branch_count, bool)
+    return np.hypot(*tint(branch_colors(graph)).T) <= NEUTRAL
+
+
+def _of_branches(graph: PlanarGraph) -> Array:
+    """(B,) the strength in the inner part of each branch."""
+    count = np.diff(graph.offsets)
+    place = np.arange(len(graph.points)) - np.repeat(graph.offsets[:-1], count)
+    share = place / np.repeat(np.maximum(count - 1, 1), count)
+    weight = np.where(np.abs(share - 0.5) <= 0.5 - _INNER, 1.0, 1e-6)
+    value = undimmed(graph.strength, graph.widths)
+    start = graph.offsets[:-1]
+    return np.add.reduceat(weight * value, start) / np.add.reduceat(weight, start)

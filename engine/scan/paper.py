@@ -1,0 +1,148 @@
+"""Paper, shading, rules and grain taken out of a page: what is left is ink.
+
+`flatten_paper` is the one normalisation that every later stage relies on, and that the network is
+trained with: simple, deterministic, and it looks only at what lies near.
+"""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+
+from ..values import Array
+from .ruling import without_rules
+
+_BLOCK = 8  # px; paper is estimated on a grid of such blocks
+
+
+def flatten_paper(gray: Array) -> Array:
+    """Take paper, shading, rules and grain out of a page of dark lines.
+
+    Two passes: the lightest spots give a first guess of the paper; what that guess calls bare
+    paper then gives its true mean and its grain, so that grain ends up around 0 and can be gated.
+    Rules and grids go as well.
+
+    Args:
+        gray: (H, W) float32 luminance in [0, 1]; 0 = black.
+
+    Returns:
+        ink, (H, W) float32 in [0, 1]: 0 on paper, about 1 on a full pen stroke, anti-aliased.
+    """
+    gray = np.ascontiguousarray(gray, np.float32)
+    # In place wherever it can be: a page of 8192 px has 256 MiB in every such array.
+    rough = _light_paper(gray)
+    np.subtract(1.0, np.divide(gray, rough, out=rough), out=rough)
+    limit = _texture(rough)
+    limit *= 3.0
+    limit += 0.04
+    bare = (rough < limit).view(np.uint8)
+    del limit
+    share = _to_grid(bare.astype(np.float32))
+    known = share > 0.1
+    mean = _smooth_fill(_to_grid(rough * bare) / np.maximum(share, 1e-3), known)
+    darkness = np.subtract(rough, _from_grid(mean, gray.shape), out=rough)
+    darkness = without_rules(darkness)
+    pen = _pen_level(darkness)
+    _gate(darkness, bare, pen)
+    del bare
+    np.divide(darkness, _full_ink(darkness, pen), out=darkness)
+    return np.minimum(darkness, 1.0, out=darkness)
+
+
+def _light_paper(gray: Array) -> Array:
+    """A first guess of the paper's luminance at each pixel: the lightest spots around it."""
+    smooth = cv2.blur(gray, (3, 3), borderType=cv2.BORDER_REPLICATE)
+    grid = cv2.medianBlur(_block_max(smooth), 5)
+    # What is far darker than the lightest paper in a wide circle is solid ink, not shadow.
+    size = [max(1, side // 8) for side in grid.shape[::-1]]
+    coarse = cv2.resize(grid, size, interpolation=cv2.INTER_AREA)
+    reach = np.ones((max(3, coarse.shape[0] // 2), max(3, coarse.shape[1] // 2)), np.uint8)
+    bright = cv2.morphologyEx(coarse, cv2.MORPH_CLOSE, reach)
+    bright = cv2.resize(bright, grid.shape[::-1], interpolation=cv2.INTER_LINEAR)
+    del smooth
+    paper = _from_grid(_smooth_fill(grid, grid > 0.5 * bright), gray.shape)
+    return np.maximum(paper, 0.05, out=paper)
+
+
+def _texture(rough: Array) -> Array:
+    """A first guess of the grain (standard deviation) at each pixel, kept below hatching's."""
+    high = cv2.GaussianBlur(rough, (0, 0), 1.5)
+    np.abs(np.subtract(rough, high, out=high), out=high)
+    grid = np.minimum(1.25 * cv2.medianBlur(_to_grid(high), 5), 0.06)
+    del high
+    return _from_grid(grid, rough.shape)
+
+
+def _pen_level(darkness: Array) -> float:
+    """How dark the pen of a page is, however much grain there is beside it: dark spots weigh most.
+
+    1 on a blank page.
+    """
+    peak = _block_max(cv2.GaussianBlur(darkness, (0, 0), 0.6))
+    inked = np.sort(peak[peak > 0.06])
+    if not inked.size:
+        return 1.0
+    weight = np.cumsum(np.square(inked, dtype=np.float64))
+    return float(inked[np.searchsorted(weight, 0.65 * weight[-1])])
+
+
+def _gate(darkness: Array, bare: Array, pen: float) -> None:
+    """Shut out, in place, what is as weak as the grain, or as a stain beside the pen; what is
+    clearly darker stays as it is.
+
+    Judged on smoothed ink, where grain is weaker and the gaps in a pencil line are closed.
+    """
+    smooth = cv2.GaussianBlur(darkness, (0, 0), 1.2)
+    calm = cv2.erode(bare, np.ones((5, 5), np.uint8))  # not the foot of a line
+    share = _to_grid(calm.astype(np.float32))
+    square = np.square(smooth)
+    square *= calm
+    variance = _to_grid(square) / np.maximum(share, 1e-3)
+    del square, calm
+    grain = np.sqrt(_smooth_fill(variance, share > 0.1))
+    low = _from_grid(np.maximum(3.5 * grain + 0.005, 0.08 * pen), darkness.shape)
+    smooth -= low
+    low *= 0.6
+    smooth /= low
+    darkness *= np.clip(smooth, 0.0, 1.0, out=smooth)
+    np.maximum(darkness, 0.0, out=darkness)
+
+
+def _full_ink(darkness: Array, pen: float) -> Array:
+    """The darkness of a full stroke around each pixel: between the page's and the local one."""
+    peak = _block_max(cv2.GaussianBlur(darkness, (0, 0), 0.6))
+    local = cv2.GaussianBlur(cv2.dilate(peak, np.ones((7, 7), np.uint8)), (0, 0), 3)
+    return _from_grid(np.sqrt(np.clip(local, 0.15 * pen, pen) * pen), darkness.shape)
+
+
+def _block_max(image: Array) -> Array:
+    """The largest value around the centre of each block of the grid."""
+    peak = cv2.dilate(image, np.ones((_BLOCK, _BLOCK), np.uint8))
+    return np.ascontiguousarray(peak[_BLOCK // 2 :: _BLOCK, _BLOCK // 2 :: _BLOCK])
+
+
+def _to_grid(image: Array) -> Array:
+    """The mean of each block."""
+    height, width = image.shape
+    blocks = (
+        max(1, (width + _BLOCK // 2 - 1) // _BLOCK),
+        max(1, (height + _BLOCK // 2 - 1) // _BLOCK),
+    )
+    return cv2.resize(image, blocks, interpolation=cv2.INTER_AREA)
+
+
+def _from_grid(grid: Array, shape: tuple[int, int]) -> Array:
+    return cv2.resize(grid, shape[::-1], interpolation=cv2.INTER_LINEAR)
+
+
+def _smooth_fill(grid: Array, known: Array) -> Array:
+    """Smooth the known values and carry them into the unknown blocks (push-pull pyramid)."""
+    weight = known.astype(np.float32)
+    mass = cv2.GaussianBlur(weight, (0, 0), 1.5)
+    near = cv2.GaussianBlur(grid * weight, (0, 0), 1.5) / np.maximum(mass, 1e-6)
+    if mass.min() > 0.05 or min(grid.shape) < 3:
+        return near if mass.any() else grid
+    far = _smooth_fill(
+        cv2.pyrDown(near * mass) / np.maximum(cv2.pyrDown(mass), 1e-6), cv2.pyrDown(mass) > 0.02
+    )
+    return np.where(mass > 0.05, near, cv2.pyrUp(far, dstsize=grid.shape[::-1]))

@@ -1,0 +1,111 @@
+"""What all strokes of a drawing share: the branches, evenly sampled, the pen, the inks.
+
+Computed once per graph and never for a reroute: a stroke is then a list of half-branches into it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..ink.palette import Inks
+from ..ink.pencil import undimmed
+from ..settings import Settings
+from ..values import PlanarGraph
+
+Array = np.ndarray
+
+SAMPLES_PER_PEN = 4  # samples along a line of one pen width
+_BLOB = 1.0  # pen widths around a junction where other lines spoil the width; twice that to be sure
+_UNKNOWN = 4.0  # px
+_FULL_INK = 60  # percentile of ink that counts as opaque
+
+
+@dataclass(frozen=True, eq=False)
+class Page:
+    """Branches sampled at about a quarter of the pen width; the first and last sample of a branch
+    are its vertices.
+
+    pen: typical line width, px.
+    points: (M, 2) float64; branch b has the samples offsets[b]:offsets[b + 1].
+    widths, opacity: (M,) float64; trust: (M,) weight in [0, 1], 0 where a junction spoils them.
+    length: (B,) px.
+    lonely: (B,) bool; the branch is a whole line that hangs on nothing.
+    inks: the colours of the page.
+    """
+
+    pen: float
+    points: Array
+    offsets: Array
+    widths: Array
+    opacity: Array
+    trust: Array
+    length: Array
+    lonely: Array
+    inks: Inks
+    settings: Settings
+
+    @classmethod
+    def of(cls, graph: PlanarGraph, settings: Settings) -> Page:
+        """Sample a graph; without widths, its lines are `_UNKNOWN` px wide."""
+        widths = np.full(len(graph.points), _UNKNOWN) if graph.widths is None else graph.widths
+        pen = max(float(np.median(widths)), 0.1) if len(widths) else _UNKNOWN
+        size = np.diff(graph.offsets)
+        branch = np.repeat(np.arange(graph.branch_count), size)
+        points = graph.points.astype(np.float64)
+        step = np.hypot(*np.diff(points, axis=0, prepend=points[:1]).T)
+        step[graph.offsets[:-1]] = 0.0
+        # Multiples of 2^-20 add up without rounding, so that nothing depends on what else is here.
+        arc = np.cumsum(np.round(step * 2.0**20) / 2.0**20)
+        arc -= np.repeat(arc[graph.offsets[:-1]], size)
+        length = arc[graph.offsets[1:] - 1]
+
+        count = np.maximum(1, np.ceil(length / (pen / SAMPLES_PER_PEN))).astype(np.int64) + 1
+        offsets = np.concatenate([[0], np.cumsum(count)])
+        of_sample = np.repeat(np.arange(graph.branch_count), count)
+        share = (np.arange(offsets[-1]) - offsets[of_sample]) / (count[of_sample] - 1)
+        along = share * length[of_sample]
+
+        # Find the segment of every sample: all branches laid end to end, one px apart.
+        base = np.arange(graph.branch_count) + np.concatenate([[0.0], np.cumsum(length)])[:-1]
+        low = np.searchsorted(base[branch] + arc, base[of_sample] + along, side="right") - 1
+        low = np.clip(low, graph.offsets[of_sample], graph.offsets[of_sample + 1] - 2)
+        gap = np.maximum(arc[low + 1] - arc[low], 1e-9)
+        t = np.clip((along - arc[low]) / gap, 0.0, 1.0)
+
+        def at(values: Array) -> Array:
+            values = np.asarray(values, np.float64)
+            values = values if values.ndim == 2 else values[:, None]
+            return values[low] + t[:, None] * (values[low + 1] - values[low])
+
+        near = np.where(
+            graph.degrees[graph.ends[of_sample]] >= 3,
+            np.stack([along, length[of_sample] - along], 1),
+            np.inf,
+        ).min(1, initial=np.inf)
+        inks = Inks.of(graph, length, pen) if settings.inks else Inks.black(graph.branch_count)
+        opacity = np.ones(len(points))
+        if graph.strength is not None:
+            opacity = _opacity(undimmed(graph.strength, widths), inks.ink[branch])
+        free = (graph.degrees[graph.ends] <= 1).all(1)
+        return cls(
+            pen=pen,
+            points=at(points),
+            offsets=offsets,
+            widths=at(widths)[:, 0],
+            opacity=at(opacity)[:, 0],
+            trust=np.clip(near / (_BLOB * pen) - 1.0, 0.0, 1.0),
+            length=length,
+            lonely=free | (graph.degrees[graph.ends] == 2).all(1),
+            inks=inks,
+            settings=settings,
+        )
+
+
+def _opacity(ink: Array, of: Array) -> Array:
+    """(P,) how dense the ink is, relative to all that is drawn in the same one; of: (P,) which."""
+    full = np.ones(int(of.max(initial=0)) + 1)
+    for number in np.unique(of):
+        full[number] = max(float(np.percentile(ink[of == number], _FULL_INK)), 1e-3)
+    return np.clip(ink / full[of], 0.0, 1.0)

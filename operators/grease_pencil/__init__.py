@@ -1,0 +1,9 @@
+"""The Grease Pencil data layer: nothing else reads or writes strokes.
+
+core             pure NumPy: strokes as arrays, and the plan of what a rerouting changes
+cels             the strokes of one layer at one keyframe <-> arrays
+writing          a whole drawing -> layers, keyframes, materials
+state            what the data-block remembers of its traces
+routing_change   the one way in for everything that changes a routing: state and strokes
+vertex_weights   the weights that artists paint, which only geometry nodes can tell
+"""

@@ -1,0 +1,8 @@
+"""The pure core of rerouting: arrays in, edits out; nothing here imports Blender.
+
+pixel_map       pixels of a drawing <-> the space of its object
+stroke_arrays   strokes and their attributes as arrays
+stretches       what stays whole of strokes when junctions are rerouted
+pieces          cutting and joining strokes, with all attributes of their points
+splice          `plan`: from one routing to another, as edits of cels
+"""

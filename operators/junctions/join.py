@@ -1,0 +1,36 @@
+"""Join two half-branches of a junction by hand, whatever they were joined to before."""
+
+from __future__ import annotations
+
+import bpy
+from bpy.props import IntProperty
+
+from ..language import message
+from ..view.view_state import shown_in
+from .junction_operator import JunctionOperator
+
+
+class INVOLUTE_OT_join(JunctionOperator, bpy.types.Operator):
+    """Let one of these lines continue in the other; what they continued in before ends here"""
+
+    bl_idname = "involute.join"
+    bl_label = "Join Lines"
+
+    first: IntProperty(name="First", description="Number of a half-branch", min=0)
+    second: IntProperty(name="Second", description="Number of the other half-branch", min=0)
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Join the two; whatever else is joined at the junction stays."""
+        drawing = shown_in(context).trace.drawing
+        two = {self.first, self.second}
+        junction = next((j for j in drawing.junctions if two <= set(j.half_branches)), None)
+        if junction is None or len(two) != 2:
+            said = message("Only two lines that meet at one junction can be joined.")
+            self.report({"ERROR"}, said)
+            return {"CANCELLED"}
+        pairs = [pair for pair in junction.pairs if two.isdisjoint(pair)]
+        pairs.append((min(two), max(two)))
+        return self.change(context, lambda d: d.reroute(junction.index, pairs))
+
+
+CLASSES = (INVOLUTE_OT_join,)

@@ -1,0 +1,66 @@
+"""What all operators on junctions share: when they can run, and how they change a drawing."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+import bpy
+
+from ...engine import InvoluteError
+from ..grease_pencil.routing_change import change_routing
+from ..language import message
+from ..view.view_state import redraw, select, shown_in
+
+if TYPE_CHECKING:
+    from ...engine import Drawing
+
+
+class JunctionOperator:
+    """Mixin for operators on the traced drawing of the active object."""
+
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Is there a traced drawing to work on? Else say why not."""
+        try:
+            found = shown_in(context) is not None
+        except InvoluteError as problem:
+            cls.poll_message_set(message(problem))
+            return False
+        if not found:
+            cls.poll_message_set(message("Select a drawing that Involute has traced"))
+        return found
+
+    def change(self, context: bpy.types.Context, how: Callable[[Drawing], Drawing]) -> set[str]:
+        """Change the drawing, its strokes and its state; report what goes wrong."""
+        shown = shown_in(context)
+        try:
+            trace = change_routing(shown.object.data, shown.frame, shown.trace.key, how)
+        except InvoluteError as problem:
+            self.report({"ERROR"}, message(problem))
+            return {"CANCELLED"}
+        if shown.view.key == shown.trace.key:
+            shown.view.key = trace.key
+        shown.view.preview = -1
+        redraw(context)
+        return {"FINISHED"}
+
+    def apply_alternative(
+        self, context: bpy.types.Context, junction: int, alternative: int
+    ) -> set[str]:
+        """Reroute a junction (-1 is the current one) and make it the current one."""
+        shown = shown_in(context)
+        index = shown.view.junction if junction < 0 else junction
+        if not 0 <= index < len(shown.table):
+            self.report({"ERROR"}, message("Choose a junction first."))
+            return {"CANCELLED"}
+        ways = shown.trace.drawing.junctions[index].alternatives
+        if alternative >= len(ways):
+            said = message("This junction has {count} alternatives.", count=len(ways))
+            self.report({"ERROR"}, said)
+            return {"CANCELLED"}
+        select(shown, index)
+        pairs = ways[alternative].pairs
+        return self.change(context, lambda drawing: drawing.reroute(index, pairs))

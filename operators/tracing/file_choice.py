@@ -1,0 +1,51 @@
+"""Files chosen in the file browser, or dropped on the viewport."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import bpy
+from bpy.props import CollectionProperty, StringProperty
+from bpy_extras.io_utils import ImportHelper
+
+from .sources import SUFFIXES
+
+
+class ChosenFiles:
+    """Mixin: what Blender fills in when files are chosen."""
+
+    directory: StringProperty(subtype="DIR_PATH", options={"SKIP_SAVE", "HIDDEN"})
+    files: CollectionProperty(
+        type=bpy.types.OperatorFileListElement, options={"SKIP_SAVE", "HIDDEN"}
+    )
+
+    @property
+    def names(self) -> list[str]:
+        """The files of the directory that were chosen."""
+        return [file.name for file in self.files if file.name]
+
+
+class FileChoice(ChosenFiles, ImportHelper):
+    """Mixin for operators that let the user choose pictures and hand them to another operator."""
+
+    bl_options = {"REGISTER"}  # the trace that they start is the step to undo
+
+    filename_ext = ""
+    filter_glob: StringProperty(
+        default=";".join(f"*{suffix}" for suffix in SUFFIXES), options={"HIDDEN"}
+    )
+
+    @property
+    def folder(self) -> str:
+        """The folder that was chosen."""
+        return self.directory or str(Path(self.filepath).parent)
+
+    def hand_to(self, operator: object, **options: object) -> set[str]:
+        """Run another operator, in the background where there is a window; pass on its report."""
+        way = "EXEC_DEFAULT" if bpy.app.background else "INVOKE_DEFAULT"
+        try:
+            result = operator(way, **options)
+        except RuntimeError as problem:
+            self.report({"ERROR"}, str(problem).strip().removeprefix("Error: "))
+            return {"CANCELLED"}
+        return {"CANCELLED"} if result == {"CANCELLED"} else {"FINISHED"}

@@ -1,0 +1,70 @@
+"""Pictures traced one after the other, in the background."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from ...engine import Cancelled, InvoluteError, Settings
+from ..job import Job, unexpected
+from .sources import Source
+
+if TYPE_CHECKING:
+    from ...engine import Drawing
+
+STAGES = {
+    "scan": "Reading the picture",
+    "solids": "Looking for solid blacks",
+    "centerline": "Finding the lines",
+    "graph": "Finding the junctions",
+    "routing": "Routing the junctions",
+    "strokes": "Drawing the strokes",
+}
+
+
+@dataclass(frozen=True, eq=False)
+class TracedSource:
+    """A traced source, or the sentence that says why it could not be traced."""
+
+    source: Source
+    drawing: Drawing | None
+    problem: str = ""
+
+
+class TraceJob(Job):
+    """Traces sources; results: what is done so far."""
+
+    def __init__(self, sources: Sequence[Source], settings: Settings) -> None:
+        super().__init__(STAGES["scan"])
+        self.sources = list(sources)
+        self.settings = settings
+        self.results: list[TracedSource] = []
+
+    def work(self) -> None:
+        """Trace one source after the other; one that fails does not stop the others."""
+        for source in self.sources:
+            if self.cancelled:
+                return
+            self.results.append(self._trace(source))
+
+    def _trace(self, source: Source) -> TracedSource:
+        from ...engine import vectorize
+
+        try:
+            drawing = vectorize(source.picture, self.settings, self._tick, page=source.page)
+        except (InvoluteError, Cancelled) as problem:
+            return TracedSource(source, None, str(problem))
+        except MemoryError:
+            return TracedSource(
+                source, None, "There is not enough memory for a picture of this size."
+            )
+        except Exception as problem:  # the other sources may be all right
+            return TracedSource(source, None, unexpected(problem))
+        return TracedSource(source, drawing)
+
+    def _tick(self, stage: str, fraction: float) -> None:
+        if self.cancelled:
+            raise Cancelled
+        self.stage = STAGES.get(stage, stage)
+        self.fraction = (len(self.results) + fraction) / len(self.sources)

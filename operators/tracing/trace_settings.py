@@ -1,0 +1,64 @@
+"""The engine's settings as Blender properties: shared by the operator, the sidebar and presets."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
+from bpy.types import PropertyGroup
+
+from ...engine import Settings
+from ...engine.settings import ABOUT, DEFAULTS, About
+
+if TYPE_CHECKING:
+    import bpy
+
+_SUBTYPES = {"px": "PIXEL", "share": "FACTOR"}
+
+
+def _property(about: About, default: Any) -> Any:
+    """The Blender property of one setting."""
+    shown = {"name": about.label, "description": about.tip}
+    if about.kind is bool:
+        return BoolProperty(**shown, default=default)
+    if about.choices:
+        items = [(choice.value, choice.label, choice.tip) for choice in about.choices]
+        if about.kind is tuple:
+            return EnumProperty(**shown, items=items, default=set(default), options={"ENUM_FLAG"})
+        return EnumProperty(**shown, items=items, default=default)
+    shown |= {"default": default, "min": about.low, "max": about.high}
+    shown |= {"soft_max": about.soft_high or about.high}
+    make = IntProperty if about.kind is int else FloatProperty
+    return make(**shown, subtype=_SUBTYPES.get(about.unit, "NONE"))
+
+
+class TraceSettings:
+    """Mixin: one property per declared field of `Settings`, of the same name."""
+
+    __annotations__ = {name: _property(about, DEFAULTS[name]) for name, about in ABOUT.items()}
+
+
+NAMES = tuple(ABOUT)
+
+
+class INVOLUTE_PG_trace_settings(TraceSettings, PropertyGroup):
+    """The settings that the sidebar shows, kept in the scene."""
+
+
+def as_values(source: TraceSettings) -> dict[str, Any]:
+    """The settings as operators take them."""
+    values = {name: getattr(source, name) for name in NAMES}
+    # Blender keeps floats in 32 bits: 0.3 comes back as 0.30000001.
+    return {n: float(f"{v:.6g}") if isinstance(v, float) else v for n, v in values.items()}
+
+
+def engine_settings(source: TraceSettings) -> Settings:
+    """The settings as the engine takes them."""
+    values = as_values(source)
+    chosen = {n: tuple(sorted(v)) for n, v in values.items() if ABOUT[n].kind is tuple}
+    return Settings(**values | chosen)
+
+
+def scene_settings(scene: bpy.types.Scene) -> INVOLUTE_PG_trace_settings:
+    """What the sidebar shows."""
+    return scene.involute

@@ -1,0 +1,78 @@
+"""Where drawings, junctions, lines and cards lie in a region; what the mouse points at."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from .card_layout import Card, layout
+from .picking import distance_to_line, near_part, nearest, project
+from .view_state import Shown, shown_in
+
+if TYPE_CHECKING:
+    import bpy
+
+Mouse = tuple[float, float]
+
+_JUNCTION_RADIUS, _LINE_RADIUS = 22.0, 16.0  # px of the screen, times the interface's scale
+_NEIGHBORS = 6  # junctions whose lines are looked at
+
+
+def places_on_screen(context: bpy.types.Context, shown: Shown, points: np.ndarray) -> np.ndarray:
+    """Pixels of a drawing -> pixels of the region; NaN behind the eye."""
+    region = context.region
+    matrix = np.array(context.region_data.perspective_matrix) @ np.array(shown.object.matrix_world)
+    places = shown.trace.pixel_map.to_object(points)
+    return project(places, matrix, region.width, region.height)
+
+
+def junction_under(context: bpy.types.Context, mouse: Mouse) -> tuple[Shown, int] | None:
+    """The nearest junction; the active object's count first."""
+    radius = _JUNCTION_RADIUS * context.preferences.system.ui_scale
+    for shown in _drawings(context):
+        found = nearest(places_on_screen(context, shown, shown.table.positions), mouse, radius)
+        if found >= 0:
+            return shown, found
+    return None
+
+
+def halves_under(context: bpy.types.Context, mouse: Mouse) -> tuple[Shown, dict[int, float]] | None:
+    """The half-branches near the mouse with their distances, of the junctions around it."""
+    radius = _LINE_RADIUS * context.preferences.system.ui_scale
+    for shown in _drawings(context):
+        places = places_on_screen(context, shown, shown.table.positions)
+        distance = np.nan_to_num(np.linalg.norm(places - mouse, axis=1), nan=np.inf)
+        around = np.argsort(distance)[:_NEIGHBORS]
+        junctions = [shown.trace.drawing.junctions[k] for k in around]
+        near = {}
+        for half in (half for junction in junctions for half in junction.half_branches):
+            line = places_on_screen(context, shown, near_part(shown.trace.drawing, half))
+            if (away := distance_to_line(line, mouse)) <= radius:
+                near[half] = away
+        if near:
+            return shown, near
+    return None
+
+
+def cards_of(context: bpy.types.Context, shown: Shown) -> list[Card]:
+    """The cards of the current junction's alternatives in the region of the context."""
+    junction = shown.junction
+    (anchor,) = places_on_screen(context, shown, np.array([junction.position]))
+    region = context.region
+    if not np.isfinite(anchor).all():
+        anchor = (region.width / 2, region.height / 2)
+    scale = context.preferences.system.ui_scale
+    size = region.width, region.height
+    return layout(len(junction.alternatives), tuple(anchor), size, scale)
+
+
+def _drawings(context: bpy.types.Context) -> Iterator[Shown]:
+    """The traced drawings that can be seen, the active one first."""
+    active = context.active_object
+    others = (obj for obj in context.visible_objects if obj != active)
+    for obj in (active, *others):
+        shown = shown_in(context, obj) if obj is not None else None
+        if shown is not None and len(shown.table):
+            yield shown

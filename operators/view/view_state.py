@@ -1,0 +1,143 @@
+"""What the user looks at: the current junction, the preview, the filters. Not saved, not undone."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import bpy
+import numpy as np
+from bpy.props import BoolProperty, EnumProperty, FloatVectorProperty, IntProperty
+
+from ..grease_pencil import cels, state
+from .junction_table import JunctionTable, table_of
+
+if TYPE_CHECKING:
+    from ...engine import Junction
+
+
+class INVOLUTE_PG_view(bpy.types.PropertyGroup):
+    """Kept in the window manager."""
+
+    key: IntProperty(name="Drawing", description="The traced drawing that is looked at")
+    junction: IntProperty(name="Junction", description="The current junction", default=-1, min=-1)
+    preview: IntProperty(
+        name="Preview", description="The alternative that is shown but not applied", default=-1
+    )
+    choosing: BoolProperty(name="Choosing", description="The cards of the alternatives are shown")
+    drag: FloatVectorProperty(
+        name="Drag", description="From where to where the mouse joins lines", size=4
+    )
+    show_overlay: BoolProperty(
+        name="Junction Overlay",
+        description="Show junctions in the viewport, colored by doubt",
+        default=True,
+    )
+    order: EnumProperty(
+        name="Sort",
+        description="Order of the list",
+        items=[
+            ("DOUBT", "Doubt", "The most doubtful first"),
+            ("PLACE", "Place", "From the top of the page to the bottom"),
+        ],
+    )
+    doubtful_only: BoolProperty(
+        name="Doubtful", description="List doubtful junctions only", default=True
+    )
+    unlocked_only: BoolProperty(
+        name="Unlocked", description="Leave out junctions that you have fixed", default=False
+    )
+    degree: EnumProperty(
+        name="Lines",
+        description="How many lines meet",
+        items=[
+            ("0", "Any", "Any number of lines"),
+            ("3", "3", "Three lines meet"),
+            ("4", "4", "Four lines meet"),
+            ("5", "5+", "Five or more lines meet"),
+        ],
+    )
+    list_page: IntProperty(name="Page", description="Page of the list", default=1, min=1)
+
+
+@dataclass(frozen=True, eq=False)
+class Shown:
+    """The traced drawing that the user works on."""
+
+    object: bpy.types.Object
+    frame: int
+    trace: state.Trace
+    view: INVOLUTE_PG_view
+
+    @cached_property
+    def table(self) -> JunctionTable:
+        """All its junctions as arrays."""
+        return table_of(self.trace)
+
+    @property
+    def junction(self) -> Junction | None:
+        """The current junction."""
+        index = self.view.junction
+        if self.view.key != self.trace.key or not 0 <= index < len(self.table):
+            return None
+        return self.trace.drawing.junctions[index]
+
+    @property
+    def listed(self) -> np.ndarray:
+        """The numbers of the junctions that pass the filters, in the list's order."""
+        from ...engine.drawing import DOUBTFUL
+
+        return self.table.listed(
+            self.view.order,
+            DOUBTFUL if self.view.doubtful_only else 0.0,
+            int(self.view.degree),
+            self.view.unlocked_only,
+        )
+
+    @property
+    def world_positions(self) -> np.ndarray:
+        """(J, 3) where the junctions are in the scene."""
+        places = self.trace.pixel_map.to_object(self.table.positions)
+        matrix = np.array(self.object.matrix_world)
+        return places @ matrix[:3, :3].T + matrix[:3, 3]
+
+
+def view_of(context: bpy.types.Context) -> INVOLUTE_PG_view:
+    """What the user looks at, kept in the window manager."""
+    return context.window_manager.involute_view
+
+
+def shown_in(context: bpy.types.Context, obj: bpy.types.Object | None = None) -> Shown | None:
+    """What the active object (or another one) shows at the current frame; None = no trace."""
+    obj = obj or context.active_object
+    if not cels.is_grease_pencil(obj):
+        return None
+    frame = context.scene.frame_current
+    keys = state.keys_at(obj.data, frame)
+    if not keys:
+        return None
+    view = view_of(context)
+    key = view.key if view.key in keys else keys[0]
+    return Shown(obj, frame, state.load(obj.data, key), view)
+
+
+def select(shown: Shown, junction: int) -> None:
+    """Make a junction the current one."""
+    shown.view.key, shown.view.junction, shown.view.preview = shown.trace.key, junction, -1
+
+
+def make_current(context: bpy.types.Context, shown: Shown, junction: int) -> None:
+    """The same for any drawing that can be seen: its object becomes the active one."""
+    if context.active_object != shown.object and context.mode == "OBJECT":
+        context.view_layer.objects.active = shown.object
+    select(shown, junction)
+    redraw(context)
+
+
+def redraw(context: bpy.types.Context) -> None:
+    """Let all 3D viewports draw anew."""
+    for window in context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type == "VIEW_3D":
+                area.tag_redraw()

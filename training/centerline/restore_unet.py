@@ -1,0 +1,36 @@
+"""A network read back: from the checkpoint of a run, or from shipped weights to train on from.
+
+Shipped weights have their normalisation folded in; the network that they give has none, and biases
+in its place.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import onnx
+import torch
+from onnx import numpy_helper
+
+from .unet import CenterlineNet
+
+
+def restored(path: Path) -> CenterlineNet:
+    """The network of a checkpoint (the running mean of its weights) or of an ONNX file of `export`,
+    ready for inference."""
+    state = _shipped(path) if path.suffix == ".onnx" else torch.load(path, "cpu")["mean"]
+    levels = sum(name.startswith("encode.") and name.endswith(".0.0.weight") for name in state)
+    widths = tuple(len(state[f"encode.{k}.0.0.weight"]) for k in range(levels))
+    net = CenterlineNet(widths, norms="stem.0.bias" not in state).eval()
+    net.load_state_dict(state)
+    return net
+
+
+def _shipped(path: Path) -> dict[str, torch.Tensor]:
+    """Weights by their name in the network; `export` has wrapped it and stored 16-bit numbers."""
+    return {
+        array.name.removeprefix("net.").removesuffix(".half"): torch.from_numpy(
+            numpy_helper.to_array(array).astype("float32")
+        )
+        for array in onnx.load(str(path)).graph.initializer
+    }

@@ -1,0 +1,104 @@
+"""Lines of the junction overlay as arrays, in pixels of the drawing. Pure NumPy."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ...operators.view.junction_words import letters
+from ...operators.view.picking import near_part
+from .colors import LOOSE, STROKES, Color, doubt_colors
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    from ...engine import Drawing, Junction
+    from ...operators.view.junction_table import JunctionTable
+
+Array = np.ndarray
+
+_SIDES = 20  # of a ring
+_LABEL_AT = 34.0  # px from the junction
+
+
+@dataclass(frozen=True, eq=False)
+class Rings:
+    """points: (J * sides, 2) px. colors: (J * sides, 4). edges: (E, 2) int32 pairs of points."""
+
+    points: Array
+    colors: Array
+    edges: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Route:
+    """How lines run through a junction: a polyline in px, its colour, and does it go through."""
+
+    points: Array
+    color: Color
+    joined: bool
+
+
+def rings(table: JunctionTable, radius: float, scale: tuple[Color, Color, Color]) -> Rings:
+    """A ring around each junction: the more doubtful, the larger and the more yellow.
+
+    Args:
+        radius: of a certain junction's ring, px.
+        scale: colours of the sure, the doubtful and the locked.
+    """
+    turn = np.arange(_SIDES) * (2 * np.pi / _SIDES)
+    circle = np.stack([np.cos(turn), np.sin(turn)], axis=1)
+    radii = radius * (1.0 + np.where(table.locked, 0.0, np.minimum(2 * table.doubt, 1.0)))
+    points = table.positions[:, None] + radii[:, None, None] * circle
+    colors = doubt_colors(table.doubt, table.locked, *scale)
+    corner = np.arange(_SIDES)
+    one = np.stack([corner, np.roll(corner, -1)], axis=1)
+    edges = (np.arange(len(table))[:, None, None] * _SIDES + one).reshape(-1, 2)
+    return Rings(
+        points.reshape(-1, 2).astype(np.float32),
+        np.repeat(colors, _SIDES, axis=0),
+        edges.astype(np.int32),
+    )
+
+
+def routes(drawing: Drawing, junction: Junction, pairs: Iterable[tuple[int, int]]) -> list[Route]:
+    """The half-branches of a junction, joined as a routing says, each stroke in its own colour."""
+    return _joined(junction, pairs, lambda half: _outward(drawing, half))
+
+
+def sketch(drawing: Drawing, junction: Junction, pairs: Iterable[tuple[int, int]]) -> list[Route]:
+    """The same around (0, 0), y up; every half-branch reaches out as far as 1, long or short."""
+
+    def arm(half: int) -> Array:
+        line = (_outward(drawing, half) - junction.position) * (1, -1)
+        return line / max(np.linalg.norm(line, axis=1).max(), 1e-6)
+
+    return _joined(junction, pairs, arm)
+
+
+def _joined(
+    junction: Junction, pairs: Iterable[tuple[int, int]], arm: Callable[[int], Array]
+) -> list[Route]:
+    """Routes of arms, the lines of half-branches from the junction outward."""
+    left = set(junction.half_branches)
+    found = []
+    for number, (a, b) in enumerate(sorted(pairs)):
+        line = np.concatenate([arm(a)[::-1], arm(b)[1:]])
+        found.append(Route(line.astype(np.float32), STROKES[number % len(STROKES)], True))
+        left -= {a, b}
+    found += [Route(arm(half).astype(np.float32), LOOSE, False) for half in sorted(left)]
+    return found
+
+
+def _outward(drawing: Drawing, half: int) -> Array:
+    return near_part(drawing, half, share=1.0)
+
+
+def labels(drawing: Drawing, junction: Junction) -> list[tuple[str, tuple[float, float]]]:
+    """The letters of a junction's half-branches and where they stand, px."""
+    return [
+        (letter, tuple(near_part(drawing, half, _LABEL_AT, 0.8)[-1].tolist()))
+        for half, letter in letters(drawing, junction).items()
+    ]

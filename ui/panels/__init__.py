@@ -1,0 +1,1 @@
+"""Sidebar, pie menu, entries in Blender's own menus, presets and preferences."""

@@ -1,0 +1,132 @@
+"""Sidebar, first panel: settings, the Trace button, progress, and what came out."""
+
+from __future__ import annotations
+
+import bpy
+
+from ...engine import InvoluteError
+from ...operators import job as jobs
+from ...operators.language import label
+from ...operators.sequences.playing import plays_frames
+from ...operators.sequences.trace_frames import (
+    INVOLUTE_OT_import_sequence,
+    INVOLUTE_OT_trace_sequence,
+)
+from ...operators.tracing.background import INVOLUTE_OT_cancel, stage_of
+from ...operators.tracing.import_scan import INVOLUTE_OT_import_scan
+from ...operators.tracing.settings_layout import draw_settings
+from ...operators.tracing.trace import INVOLUTE_OT_trace, is_image_empty
+from ...operators.tracing.trace_settings import as_values, scene_settings
+from ...operators.tracing.use_defaults import INVOLUTE_OT_use_defaults
+from ...operators.view.view_state import Shown, shown_in
+from .presets import draw_preset_menu
+
+
+class INVOLUTE_PT_trace(bpy.types.Panel):
+    """What to trace and how; progress while a trace runs."""
+
+    bl_label = "Trace Drawing"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Involute"
+
+    def draw_header_preset(self, context: bpy.types.Context) -> None:
+        """Reset and presets."""
+        self.layout.operator(
+            INVOLUTE_OT_use_defaults.bl_idname, text="", icon="LOOP_BACK", emboss=False
+        )
+        draw_preset_menu(self.layout)
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Buttons and settings, or the progress."""
+        layout = self.layout
+        if jobs.current is not None:
+            job = jobs.current
+            layout.progress(factor=job.fraction, text=stage_of(job), translate=False)
+            layout.operator(INVOLUTE_OT_cancel.bl_idname, icon="CANCEL")
+            return
+        settings = scene_settings(context.scene)
+        column = layout.column()
+        column.scale_y = 1.3
+        if plays_frames(context.active_object):
+            _button(
+                column,
+                INVOLUTE_OT_trace_sequence.bl_idname,
+                settings,
+                label("Trace What {name} Plays", name=context.active_object.name),
+                "RENDER_ANIMATION",
+            )
+        elif is_image_empty(context.active_object):
+            _button(
+                column,
+                INVOLUTE_OT_trace.bl_idname,
+                settings,
+                label("Trace {name}", name=context.active_object.name),
+                "GREASEPENCIL",
+            )
+        _button(
+            column,
+            INVOLUTE_OT_import_scan.bl_idname,
+            settings,
+            "Trace Files...",
+            "FILE_FOLDER",
+        )
+        _button(
+            column,
+            INVOLUTE_OT_import_sequence.bl_idname,
+            settings,
+            "Trace Sequence...",
+            "RENDER_ANIMATION",
+        )
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        draw_settings(layout, settings)
+
+
+class INVOLUTE_PT_summary(bpy.types.Panel):
+    """What came out of the trace."""
+
+    bl_label = "Result"
+    bl_space_type = "VIEW_3D"
+    bl_region_type = "UI"
+    bl_category = "Involute"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        """Is there a traced drawing?"""
+        try:
+            return shown_in(context) is not None
+        except InvoluteError:
+            return False
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """Counts in two lines."""
+        shown: Shown = shown_in(context)
+        drawing = shown.trace.drawing
+        seconds = sum(drawing.seconds.values())
+        column = self.layout.column(align=True)
+        drawn = label(
+            "{strokes:,} strokes, {solids:,} solids, {seconds:.1f} s",
+            strokes=len(drawing.strokes),
+            solids=len(drawing.fills),
+            seconds=seconds,
+        )
+        found = label(
+            "{junctions:,} junctions, {doubtful:,} doubtful",
+            junctions=len(shown.table),
+            doubtful=len(drawing.doubtful),
+        )
+        for text in (drawn, found):
+            column.label(text=text, translate=False)
+
+
+def _button(
+    layout: bpy.types.UILayout, operator: str, settings: object, text: str, icon: str
+) -> None:
+    """A button that traces with the settings of the sidebar."""
+    button = layout.operator(operator, text=text, icon=icon)
+    for name, value in as_values(settings).items():
+        setattr(button, name, value)
+
+
+CLASSES = (INVOLUTE_PT_trace, INVOLUTE_PT_summary)
