@@ -11,7 +11,7 @@ import pytest
 pytest.importorskip("shapely", reason="training needs Shapely")
 pytest.importorskip("torch", reason="training needs torch")
 
-from involute.synthesis import extra_marks, pencilling, tone_dots
+from involute.synthesis import extra_marks, held_out_pages, pencilling, tone_dots
 from involute.synthesis.line_art import Library, _spline
 from involute.synthesis.media import DIGITAL, MEDIA, NUDGE, draw
 from involute.synthesis.media import sample as samples_of
@@ -167,3 +167,16 @@ def test_rows_lie_along_pixels_more_often_than_not() -> None:
         step = strokes[0][-1] - strokes[0][0]
         exact += bool(np.abs(step).min() < 1e-3 * np.abs(step).max())
     assert exact > 15
+
+
+@pytest.mark.parametrize("kind", list(held_out_pages._KINDS))
+def test_held_out_pages_show_their_strokes(kind: str) -> None:
+    strokes = [line(40, 60, 400, 90), line(60, 300, 380, 40)]
+    image, style = held_out_pages._KINDS[kind](np.random.default_rng(3), strokes, 1)
+    assert image.shape == (324, 424)
+    assert "," in style
+    if kind == "one bit":
+        assert set(np.unique(image)) == {0, 255}
+    places = np.concatenate(strokes).astype(int)
+    near = cv2.erode(image, np.ones((9, 9), np.uint8))[places[:, 1], places[:, 0]]
+    assert near.mean() < np.median(image) - 20
