@@ -76,6 +76,16 @@ def test_printed_rules_are_lines(library: Library) -> None:
     np.testing.assert_array_equal(means, maps.centerline)
 
 
+def test_rules_taken_out_of_the_page_leave_nothing_where_they_cross_the_drawing() -> None:
+    size, layers = 192, []
+    for stroke, pen in ((line(10, 10, 180, 170), 4.0), (line(-5, 96, 197, 96), 1.5)):
+        drawn = samples_of([stroke], size)
+        ink, half = draw(np.random.default_rng(1), drawn, DIGITAL["crisp"], pen, size)
+        layers.append(Layer(drawn, half, ink))
+    maps, _ = training_page._targets(layers, layers[0].ink)
+    np.testing.assert_array_equal(maps.centerline, ridge(layers[0].samples, size))
+
+
 def test_screentone_has_no_target_and_lines_through_it_keep_theirs() -> None:
     dots = tone_dots.screentone(np.random.default_rng(1), 192, hard=True)
     assert dots.any()

@@ -35,6 +35,7 @@ from .targets import MAX_HALF_WIDTH, Targets, ridge, targets
 _MIN_SPACING = 2.7  # px; denser hatching is a tone, not lines
 _SEEN_OVER = 49  # samples of half a px
 _HIDDEN_OVER = 121  # samples; what lies under a wide pen for longer can't be followed
+_GONE = 0.3  # share of a stroke that must be seen for any of it to count
 # Channels of a page, uint8: 255 * map; half-width and apart are 255 * px / MAX_HALF_WIDTH.
 CHANNELS = ("ink", "centerline", "junctions", "endpoints", "half_width", "solid")
 CHANNELS += ("doubled", "apart", "clean")
@@ -288,7 +289,7 @@ def _targets(layers: list[Layer], ink: Array) -> tuple[Targets, Array]:
     size = len(ink)
     if not layers:
         return Targets.blank(size), np.zeros((size, size), np.float32)
-    seen = [_visible(la.samples.position, ink) & ~_hidden(la, layers) for la in layers]
+    seen = [_seen(layer, layers, ink) for layer in layers]
     kept = [(la, s) for la, s in zip(layers, seen, strict=True) if np.count_nonzero(s) > 1]
     if not kept:
         return Targets.blank(size), np.zeros((size, size), np.float32)
@@ -299,6 +300,17 @@ def _targets(layers: list[Layer], ink: Array) -> tuple[Targets, Array]:
     meant = [la.means for la in layers if la.is_rough and la.means is not None]
     meant += [layer.samples.take(s) for layer, s in kept if not layer.is_rough]
     return maps, ridge(Samples.merge(meant), size) if meant else np.zeros_like(maps.centerline)
+
+
+def _seen(layer: Layer, layers: list[Layer], ink: Array) -> Array:
+    """Which samples of a layer can be seen, (N,); of strokes that are gone, none: rules taken out
+    of the page would still show where they cross the drawing."""
+    seen = _visible(layer.samples.position, ink) & ~_hidden(layer, layers)
+    position, stroke = layer.samples.position, layer.samples.stroke
+    on_page = ((position >= 0) & (position < len(ink))).all(1)
+    shown = np.bincount(stroke, seen & on_page)
+    gone = shown < _GONE * np.bincount(stroke, on_page)
+    return seen & ~gone[stroke]
 
 
 def _visible(points: Array, ink: Array) -> Array:
