@@ -1,4 +1,4 @@
-"""Builds the extension: `python -m involute.package`, one zip per platform with its two wheels.
+"""Builds the extension: `python package.py`, one zip per platform with its two wheels.
 
 The wheels come from `pip download`, pinned by the hashes in wheels.txt, into the ignored folder
 wheels/. The same sources give the same bytes. Standard library only, so that it also runs by path.
@@ -9,6 +9,7 @@ from __future__ import annotations
 import argparse
 import hashlib
 import importlib.util
+import os
 import re
 import shutil
 import subprocess
@@ -90,7 +91,7 @@ def host_platform() -> str:
 
 
 def main(argv: list[str] | None = None) -> int:
-    parser = argparse.ArgumentParser(prog="python -m involute.package", description=__doc__)
+    parser = argparse.ArgumentParser(prog="package.py", description=__doc__)
     parser.add_argument("-o", "--output", type=Path, default=ROOT / "dist", help="folder for zips")
     parser.add_argument(
         "--platform",
@@ -150,7 +151,7 @@ def _pip() -> list[str]:
         return [sys.executable, "-m", "pip"]
     if pip := shutil.which("pip"):
         return [pip]
-    if uv := shutil.which("uv"):
+    if uv := os.environ.get("UV") or shutil.which("uv"):
         return [uv, "tool", "run", "pip"]
     raise SystemExit("Fetching the wheels needs pip: install it, or put them in wheels/.")
 

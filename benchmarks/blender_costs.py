@@ -6,12 +6,13 @@ there is a display and a `blender`, what the overlay adds to a redraw is measure
 
 from __future__ import annotations
 
+import argparse
 import json
 import os
 import shutil
 import subprocess
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -26,6 +27,8 @@ from involute.operators.tracing.trace import new_object
 from involute.operators.view.junction_table import JunctionTable
 from involute.ui.overlay import colors, overlay_geometry
 
+from .run_record import Figures
+
 _RUNS = 7
 _HEADLESS = 4  # rows that need no window
 _ROOT = Path(__file__).resolve().parents[1]
@@ -34,19 +37,35 @@ _ROOT = Path(__file__).resolve().parents[1]
 Row = tuple[str, float, float]
 
 
-def main() -> None:
+def main(argv: Sequence[str] | None = None) -> Figures:
     """Print milliseconds of CPU beside what they are allowed to be."""
-    print(report())
+    argparse.ArgumentParser(description=__doc__.splitlines()[0]).parse_args(argv)
+    told, rows = report()
+    print(told)
+    return {what: {"ms": milliseconds, "at most": limit} for what, milliseconds, limit in rows}
 
 
-def report() -> str:
-    """The table as text."""
+def in_window(argv: Sequence[str] | None = None) -> Figures:
+    """The overlay in an idle redraw alone: `python -m benchmarks run redraw`.
+
+    Raises:
+        ValueError: there is no display, or no Blender.
+    """
+    argparse.ArgumentParser(description=in_window.__doc__.splitlines()[0]).parse_args(argv)
+    if not (rows := redraw()):
+        raise ValueError("The run redraw needs a display and `blender` on the path.")
+    print("\n".join(f"{what:40} {milliseconds:8.2f} ms" for what, milliseconds, _ in rows))
+    return {what: {"ms": milliseconds, "at most": limit} for what, milliseconds, limit in rows}
+
+
+def report() -> tuple[str, list[Row]]:
+    """The table as text, and its rows."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     rows = [write_ten_thousand(), reroute_among(500), overlay_of(2000), look_up(125), *redraw()]
     lines = [f"{what:58} {milliseconds:8.2f} {limit:8.0f}" for what, milliseconds, limit in rows]
     if len(rows) == _HEADLESS:
         lines.append("idle redraw: not measured, there is no display or no blender")
-    return "\n".join([f"{'what':58} {'ms':>8} {'at most':>8}", *lines])
+    return "\n".join([f"{'what':58} {'ms':>8} {'at most':>8}", *lines]), rows
 
 
 def write_ten_thousand() -> Row:

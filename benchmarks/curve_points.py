@@ -20,12 +20,14 @@ from involute.engine import Drawing, Settings, Stroke, vectorize
 from involute.engine.strokes import Page, build, walk
 
 from .judged_pages import DATA, pages
+from .run_record import Figures
 from .tables import markdown
 
 Array = np.ndarray
 
 
-def main() -> None:
+def main(argv: Sequence[str] | None = None) -> Figures:
+    """The command line."""
     parser = argparse.ArgumentParser(
         prog="python -m benchmarks.curve_points",
         description=__doc__,
@@ -34,7 +36,7 @@ def main() -> None:
     parser.add_argument("--data", type=Path, default=DATA)
     parser.add_argument("--tolerance", type=float, default=0.5, metavar="PX")
     parser.add_argument("--limit", type=int, help="only so many pages")
-    options = parser.parse_args()
+    options = parser.parse_args(argv)
     exact = Settings(tolerance=0.0)
     polyline = replace(exact, tolerance=options.tolerance)
     bezier = replace(polyline, curve="bezier")
@@ -56,15 +58,23 @@ def main() -> None:
             strokes = written(drawing, settings, ink)
             points[name] += sum(len(stroke.points) for stroke in strokes)
             errors[name].append(away(lines, strokes))
-    rows = []
+    figures = {}
     for name, total in points.items():
         error = np.concatenate(errors[name])
-        rows.append(
-            [name, f"{total / count:.2f}", f"{points['polyline'] / total:.2f}",
-             f"{np.sqrt(np.mean(error**2)):.3f}", f"{error.max():.2f}"]
-        )  # fmt: skip
+        figures[name] = {
+            "points a stroke": total / count,
+            "fewer": points["polyline"] / total,
+            "RMS px": float(np.sqrt(np.mean(error**2))),
+            "greatest px": float(error.max()),
+        }
+    forms = "{:.2f}", "{:.2f}", "{:.3f}", "{:.2f}"
+    rows = [
+        [name, *(form.format(v) for form, v in zip(forms, own.values(), strict=True))]
+        for name, own in figures.items()
+    ]
     print(f"{count} strokes, tolerance {options.tolerance:g} px\n")
     print(markdown(["written as", "points a stroke", "fewer", "RMS px", "greatest px"], rows))
+    return figures
 
 
 def written(drawing: Drawing, settings: Settings, ink: bool) -> list[Stroke]:

@@ -23,13 +23,15 @@ import sys
 import tempfile
 import time
 import zipfile
+from collections.abc import Sequence
 from pathlib import Path
 
 REPOSITORY = "involute_speed"
 MODULE = f"bl_ext.{REPOSITORY}.involute"
 
 
-def main() -> None:
+def main(argv: Sequence[str] | None = None) -> dict[str, dict[str, float]]:
+    """The command line."""
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
@@ -37,13 +39,14 @@ def main() -> None:
     parser.add_argument("--python", nargs="+", default=[sys.executable])
     parser.add_argument("--repeat", type=int, default=3)
     parser.add_argument("--inside", action="store_true", help=argparse.SUPPRESS)
-    options = parser.parse_args()
+    options = parser.parse_args(argv)
     if options.inside:
         print(json.dumps(measure(options.zip.absolute())))
-        return
+        return {}
     for line in contents(options.zip):
         print(line)
     print()
+    figures = {"zip": {"MB": options.zip.stat().st_size / 1e6}}
     for python in options.python:
         command = [python, __file__, "--inside", str(options.zip)]
         runs = []
@@ -56,6 +59,8 @@ def main() -> None:
         }
         told = ", ".join(f"{name} {a:.3f} s ({b:.3f})" for name, (a, b) in least.items())
         print(f"Blender {runs[0]['version']}: {told}; {runs[0]['early'] or 'none'} loaded early")
+        figures[f"Blender {runs[0]['version']}"] = {k: wall for k, (wall, _) in least.items()}
+    return figures
 
 
 def contents(path: Path) -> list[str]:

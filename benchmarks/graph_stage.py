@@ -5,6 +5,8 @@
     python -m benchmarks.graph_stage --stage [--data DIR]    scans: our graph, a skeleton's, from
                                                        the network's centerline
 
+`--without NAME` leaves out a pass of the graph stage, to see what it brings; `--passes` lists them.
+
 Lines are paired by geometry only. A case is NAME.png, white lines on black, with its truth in
 NAME.svg; one without truth is only timed. Seconds are CPU seconds of one core, best of three;
 memory is the growth of the peak of the process. Crossings, Chamfer, F1: see `metrics`. `dense` is
@@ -17,15 +19,17 @@ from __future__ import annotations
 import argparse
 import resource
 import time
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from pathlib import Path
 
 import cv2
 import numpy as np
 from involute.engine import Settings
+from involute.engine.arrays.ragged import along, arc, offsets_of
 from involute.engine.centerline import provider_for
 from involute.engine.fills.solids import split_solids
-from involute.engine.graph import build_graph, measure, sweep
+from involute.engine.graph import PASSES, Evidence, routed, run_passes
+from involute.engine.graph.passes import MEASURED, ROUTED
 from involute.engine.graph.topology import join
 from involute.engine.routing import route
 from involute.engine.scan import read_scan
@@ -33,9 +37,10 @@ from involute.engine.strokes.walk import walk
 from involute.engine.values import LineMaps, PlanarGraph, Routing
 from scipy.spatial import cKDTree
 
-from .judged_pages import DATA, Page, pages
+from .judged_pages import DATA, JudgedPage, pages
 from .metrics import LONG_SIDE, Score, evaluate, read_svg, scaled, summarize
 from .rivals.plain_skeleton import pieces
+from .run_record import Figures
 from .tables import markdown
 
 Array = np.ndarray
@@ -55,7 +60,7 @@ _HEAD = [
 ]
 
 
-def main(argv: Sequence[str] | None = None) -> None:
+def main(argv: Sequence[str] | None = None) -> Figures:
     parser = argparse.ArgumentParser(
         prog="python -m benchmarks.graph_stage", description=__doc__.split("\n")[0]
     )
@@ -64,33 +69,61 @@ def main(argv: Sequence[str] | None = None) -> None:
     parser.add_argument("--stage", action="store_true", help="against a plain skeleton")
     parser.add_argument("--data", type=Path, default=DATA, help="folder with a manifest.json")
     parser.add_argument("--every", type=int, default=1, help="only every n-th drawing")
+    parser.add_argument("--without", action="append", default=[], metavar="NAME", help="of a pass")
+    parser.add_argument("--passes", action="store_true", help="list the passes, and stop")
     arguments = parser.parse_args(argv)
+    if arguments.passes:
+        print(pass_table())
+        return {}
+    without = arguments.without
     cv2.setNumThreads(1)
     rows = []
     if arguments.cases:
         for path in sorted(arguments.cases.glob("*.png")):
             image = cv2.imread(str(path), cv2.IMREAD_GRAYSCALE)
             truth = path.with_suffix(".svg")
-            rows.append(_row(path.stem, [(image, read_svg(truth) if truth.exists() else None)]))
+            rows.append(
+                _row(path.stem, [(image, read_svg(truth) if truth.exists() else None)], without)
+            )
     if arguments.ideal:
         drawings = pages(arguments.data)[:: arguments.every]
         truths = [page.true_strokes() for page in drawings]
-        rows.append(_row(f"ideal, {len(truths)} drawings", [(draw(t), t) for t in truths]))
+        rows.append(_row(f"ideal, {len(truths)} drawings", [(draw(t), t) for t in truths], without))
     if rows:
         print(markdown(_HEAD, rows), "\n")
+    figures = {row[0]: _numbers(row[1:]) for row in rows}
     if arguments.stage:
-        print(stage(pages(arguments.data)[:: arguments.every]))
-    else:
-        print(growth())
+        head, rows = stage(pages(arguments.data)[:: arguments.every], without)
+        print(markdown(head, rows))
+        return figures | {row[0]: _numbers(row[1:], head[1:]) for row in rows}
+    told, times = growth()
+    print(told)
+    return figures | {"growth": {"times for 16 times the area": times}}
 
 
-def _row(name: str, cases: Iterable[tuple[Array, list[Array] | None]]) -> list[str]:
+def _numbers(cells: Sequence[str], names: Sequence[str] = _HEAD[1:]) -> dict[str, float]:
+    return {name: float(c.rstrip(" %")) for name, c in zip(names, cells, strict=True) if c}
+
+
+def pass_table() -> str:
+    """Every pass with what it does, reads and promises, in the order in which they run."""
+    rows = []
+    for one in PASSES:
+        lines = [line.strip() for line in (one.run.__doc__ or "").splitlines()]
+        said = [line for line in lines if line.startswith(("Reads:", "Promises:"))]
+        rows.append([one.name, lines[0], *(line.split(": ", 1)[1] for line in said)])
+    return markdown(["pass", "does", "reads", "promises"], rows)
+
+
+def _row(
+    name: str, cases: Iterable[tuple[Array, list[Array] | None]], without: Collection[str]
+) -> list[str]:
     """One line of the table: counts pooled, distances as medians over the cases."""
     scores: list[Score] = []
     dense, length, seconds = [], [], []
     before = _peak()
     for image, truth in cases:
-        took, graph = timed(image)
+        took, graph = timed(image, without)
         seconds.append(took)
         if truth is None:
             continue
@@ -120,18 +153,20 @@ def _row(name: str, cases: Iterable[tuple[Array, list[Array] | None]]) -> list[s
     ]
 
 
-def timed(image: Array) -> tuple[float, PlanarGraph]:
+def timed(image: Array, without: Collection[str] = ()) -> tuple[float, PlanarGraph]:
     """CPU seconds, best of three, and the graph of an 8-bit centerline image."""
     maps = LineMaps(image.astype(np.float32) / 255)
-    seconds = []
+    seconds: list[float] = []
     for _ in range(3):
         start = time.process_time()
-        graph = build_graph(maps, 2.0, SETTINGS)
+        graph = run_passes(Evidence(maps, 2.0), SETTINGS, until=MEASURED, without=without)
         seconds.append(time.process_time() - start)
     return min(seconds), graph
 
 
-def stage(drawings: Sequence[Page]) -> str:
+def stage(
+    drawings: Sequence[JudgedPage], without: Collection[str] = ()
+) -> tuple[list[str], list[list[str]]]:
     """What the graph stage brings: all else is the same, the network's centerline included."""
     settings = Settings(provider="network", router="geometric")
     scores: dict[str, list[Score]] = {"plain skeleton": [], "graph stage": []}
@@ -139,11 +174,15 @@ def stage(drawings: Sequence[Page]) -> str:
         scan = read_scan(page.image, settings)
         lines, _ = split_solids(scan, settings)
         maps = provider_for(settings)(lines, lambda fraction: None)
-        graphs = skeleton_graph(maps), build_graph(maps, lines.pen_width, settings)
+        evidence = Evidence.of(lines, maps)
+        ours = run_passes(evidence, settings, until=MEASURED, without=without)
+        graphs = skeleton_graph(maps), ours
         truth = page.true_strokes()
         for own, graph in zip(scores.values(), graphs, strict=True):
-            graph = sweep(measure(graph, lines, maps), settings)
-            strokes = polylines(graph, route(graph, settings))
+            graph = run_passes(
+                evidence, settings, graph, start=MEASURED, until=ROUTED, without=without
+            )
+            strokes = polylines(*routed(graph, evidence, settings, route, without))
             own.append(evaluate(scaled(strokes, scan.ink.shape[::-1]), truth))
     figures = {"crossings": "found", "branching": "3+ found", "precision": "precision"}
     figures |= {"chamfer": "Chamfer", "density": "r_SD", "f1": "F1"}
@@ -151,7 +190,7 @@ def stage(drawings: Sequence[Page]) -> str:
     for name, own in scores.items():
         summary = summarize(own)
         rows.append([name, *(f"{summary[key]:.3f}" for key in figures)])
-    return markdown([f"{len(drawings)} drawings", *figures.values()], rows)
+    return [f"{len(drawings)} drawings", *figures.values()], rows
 
 
 def skeleton_graph(maps: LineMaps) -> PlanarGraph:
@@ -164,7 +203,7 @@ def skeleton_graph(maps: LineMaps) -> PlanarGraph:
     graph = PlanarGraph(
         found.nodes[used].astype(np.float32),
         np.concatenate(found.paths).astype(np.float32),
-        np.cumsum([0, *map(len, found.paths)]).astype(np.int32),
+        offsets_of([len(path) for path in found.paths]).astype(np.int32),
         ends.reshape(-1, 2).astype(np.int32),
     )
     return join(graph)
@@ -198,12 +237,11 @@ def dense_chamfer(one: Sequence[Array], two: Sequence[Array]) -> float:
 
 
 def _dense(line: Array) -> Array:
-    arc = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(line, axis=0).T))])
-    at = np.linspace(0, arc[-1], max(2, int(10 * arc[-1])))
-    return np.stack([np.interp(at, arc, v) for v in line.T], -1)
+    whole = arc(line)[-1]
+    return along(line, np.linspace(0, whole, max(2, int(10 * whole))))
 
 
-def growth() -> str:
+def growth() -> tuple[str, float]:
     """How the time grows with the page: 16 times the area with 16 times the lines."""
     rng = np.random.default_rng(5)
     t = np.linspace(0, 1, 60)[:, None]
@@ -212,7 +250,8 @@ def growth() -> str:
     tile = draw([weight @ c for c in corner], 512)
     small, large = timed(tile)[0], timed(np.tile(tile, (4, 4)))[0]
     times = large / small
-    return f"512 px, 20 lines: {small:.3f} s; 2048 px, 320 lines: {large:.3f} s ({times:.1f} x)"
+    told = f"512 px, 20 lines: {small:.3f} s; 2048 px, 320 lines: {large:.3f} s ({times:.1f} x)"
+    return told, times
 
 
 def _peak() -> float:

@@ -14,7 +14,7 @@ DATA = Path(__file__).parent / "data"
 
 
 @dataclass(frozen=True)
-class Page:
+class JudgedPage:
     """One drawing of the benchmark.
 
     image: the page as scanned; truth: its SVG, one path per pen stroke.
@@ -32,7 +32,7 @@ class Page:
         return read_svg(self.truth)
 
 
-def pages(folder: Path = DATA) -> list[Page]:
+def pages(folder: Path = DATA) -> list[JudgedPage]:
     """All pages of a folder that has a `manifest.json`, by name.
 
     Raises:
@@ -45,5 +45,5 @@ def pages(folder: Path = DATA) -> list[Page]:
         stem = folder / entry["name"]
         image, truth = stem.with_suffix(".jpg"), stem.with_suffix(".svg")
         image = image if image.exists() else stem.with_suffix(".png")
-        result.append(Page(entry["name"], image, truth, medium, paper))
+        result.append(JudgedPage(entry["name"], image, truth, medium, paper))
     return sorted(result, key=lambda page: page.name)

@@ -15,7 +15,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 from involute.engine import Settings
-from involute.engine.graph import build_graph
+from involute.engine.graph import Evidence, build_graph
 from involute.engine.values import LineMaps, PlanarGraph
 
 from .graph_stage import draw
@@ -72,7 +72,7 @@ def _ray(degrees: float, start: float, stop: float, offset: Sequence[float] = (0
 
 def _tile(name: str, lines: list[Array]) -> Array:
     image = draw(lines, _SIZE)
-    graph = build_graph(LineMaps(image.astype(np.float32) / 255), 2.0, Settings())
+    graph = build_graph(Evidence(LineMaps(image.astype(np.float32) / 255), 2.0), Settings())
     tile = cv2.resize(255 - image // 3, None, fx=_ZOOM, fy=_ZOOM, interpolation=cv2.INTER_NEAREST)
     tile = cv2.cvtColor(tile, cv2.COLOR_GRAY2BGR)
     _draw_graph(tile, graph)

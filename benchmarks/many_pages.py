@@ -17,15 +17,17 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 from pathlib import Path
 
 import cv2
 import numpy as np
-from involute.command.batch import RECEIPTS
+from involute.command.receipts import FOLDER as RECEIPTS
 from involute.engine import Drawing, InvoluteError
+
+from .run_record import Figures
 
 Array = np.ndarray
 SIZE = 1024
@@ -37,7 +39,7 @@ _LEAST_LINE = 3000  # px of line that a page must have: no page of a single dood
 
 
 @dataclass
-class Run:
+class WatchedRun:
     """One run of the command: its seconds, processor seconds, exit code, and (seconds, MB) of its
     processes."""
 
@@ -47,7 +49,8 @@ class Run:
     memory: list[tuple[float, float]] = field(default_factory=list)
 
 
-def main() -> int:
+def main(argv: Sequence[str] | None = None) -> Figures:
+    """The command line."""
     parser = argparse.ArgumentParser(
         prog="python -m benchmarks.many_pages",
         description=__doc__,
@@ -57,7 +60,7 @@ def main() -> int:
     parser.add_argument("--work", type=Path, required=True, help="a new folder for all files")
     parser.add_argument("--count", type=int, default=500)
     parser.add_argument("--jobs", type=int, default=0)
-    options = parser.parse_args()
+    options = parser.parse_args(argv)
     images = options.work / "pages"
     images.mkdir(parents=True)
     for k, page in enumerate(pages(options.data, options.count)):
@@ -74,7 +77,7 @@ def main() -> int:
     first = trace(images, broken, options.jobs, stop_at=options.count // 2)
     time.sleep(1.0)
     done = {p.name: p.stat().st_mtime_ns for p in broken.glob("*.svg")}
-    receipts = {p.stem for p in (broken / RECEIPTS).glob("*.json")}
+    receipts = {f"{p.stem}.svg" for p in (broken / RECEIPTS).glob("*.json")}
     unreadable = [name for name in done if not _is_whole(broken / name)]
     print(f"killed after {first.seconds:.0f} s: {len(done)} drawings, {len(receipts)} receipts")
     second = trace(images, broken, options.jobs)
@@ -96,14 +99,17 @@ def main() -> int:
     for name, members in figures.items():
         print(f"{name}: {len(members)} {' '.join(members[:5])}")
     complete = resumed == len(receipts) and len(entries) == options.count
-    return 0 if complete and not any(figures.values()) else 1
+    faults = sum(map(len, figures.values())) + (not complete)
+    rate = 60 * options.count / run.seconds
+    cost = {"pages_a_minute": rate, "cpu_s_a_page": run.cpu / options.count}
+    return {"all pages": cost | {"most_mb": max(m for _, m in run.memory), "faults": faults}}
 
 
-def trace(images: Path, output: Path, jobs: int, stop_at: int | None = None) -> Run:
+def trace(images: Path, output: Path, jobs: int, stop_at: int | None = None) -> WatchedRun:
     """Trace a folder of images in a process group of its own; kill it at so many receipts."""
     command = [sys.executable, "-m", "involute", "trace", str(images), "-o", str(output)]
     command += ["--jobs", str(jobs), "--resume", "--report", str(output / "report.json")]
-    run, start, next_look = Run(), time.monotonic(), 0.0
+    run, start, next_look = WatchedRun(), time.monotonic(), 0.0
     before = _cpu()
     process = subprocess.Popen(command, start_new_session=True)
     try:
@@ -129,7 +135,7 @@ def _cpu() -> float:
     return used.ru_utime + used.ru_stime
 
 
-def memory(run: Run) -> str:
+def memory(run: WatchedRun) -> str:
     """The most memory in each fifth of a run."""
     at, used = np.array(run.memory).T
     part = np.minimum((5 * at / max(run.seconds, 1e-9)).astype(int), 4)
@@ -205,4 +211,4 @@ def _same(one: Path, other: Path) -> bool:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(1 if main()["all pages"]["faults"] else 0)

@@ -19,10 +19,11 @@ from pathlib import Path
 import numpy as np
 from scipy.spatial import cKDTree
 
-from .judged_pages import DATA, Page, pages
+from .judged_pages import DATA, JudgedPage, pages
 from .methods import METHODS
 from .metrics import Strokes, chamfer
 from .quality import one_thread
+from .run_record import Figures
 from .tables import markdown
 
 Array = np.ndarray
@@ -59,21 +60,22 @@ def _dense(strokes: Strokes) -> Array:
     return strokes.at(np.repeat(strokes.stroke, len(tenths)), arc)
 
 
-def _traced(work: tuple[str, Page]) -> list[Array]:
+def _traced(work: tuple[str, JudgedPage]) -> list[Array]:
     method, page = work
     return METHODS[method](page.image)
 
 
-def main() -> None:
+def main(argv: Sequence[str] | None = None) -> Figures:
+    """The command line."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.offset", description=__doc__)
     parser.add_argument("--data", type=Path, default=DATA)
     default = ["involute", "involute, no network", "skeleton + greedy"]
     parser.add_argument("--methods", nargs="+", choices=METHODS, default=default, metavar="NAME")
     parser.add_argument("--jobs", type=int, default=2, help="parallel processes")
-    arguments = parser.parse_args()
+    arguments = parser.parse_args(argv)
     drawings = pages(arguments.data)
     true = [Strokes(page.true_strokes()) for page in drawings]
-    rows = []
+    figures = {}
     with ProcessPoolExecutor(arguments.jobs, get_context("spawn"), one_thread) as pool:
         for method in arguments.methods:
             lines = list(pool.map(_traced, [(method, page) for page in drawings]))
@@ -82,8 +84,14 @@ def main() -> None:
             before = np.median([chamfer(*pair) for pair in pairs])
             moved = [Strokes([line - (x, y) for line in own]) for own in lines]
             after = np.median([chamfer(p, t) for p, t in zip(moved, true, strict=True)])
-            rows.append([method, f"{x:+.2f}", f"{y:+.2f}", f"{before:.3f}", f"{after:.3f}"])
+            figures[method] = {"x_px": x, "y_px": y, "chamfer": before, "chamfer_moved": after}
+    forms = "{:+.2f}", "{:+.2f}", "{:.3f}", "{:.3f}"
+    rows = [
+        [name, *(form.format(v) for form, v in zip(forms, own.values(), strict=True))]
+        for name, own in figures.items()
+    ]
     print(markdown(["method", "shift x px", "shift y px", "Chamfer px", "without the shift"], rows))
+    return figures
 
 
 if __name__ == "__main__":

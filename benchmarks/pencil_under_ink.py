@@ -16,6 +16,7 @@ import numpy as np
 from involute.engine import Settings, vectorize
 from scipy.spatial import cKDTree
 
+from .run_record import Figures
 from .steadiness import SIZE, dense, read_drawing
 
 Array = np.ndarray
@@ -23,12 +24,13 @@ _NUMBERS = range(10, 900, 97)  # drawings of each set
 _MOST = 150  # pen strokes of a drawing
 
 
-def main() -> None:
+def main(argv: Sequence[str] | None = None) -> Figures:
+    """The command line."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--data", type=Path, required=True, help="training drawings (.npz)")
     parser.add_argument("--sets", nargs="+", default=["streamline", "openmoji", "quickdraw_raw"])
     parser.add_argument("--count", type=int, default=8, help="drawings of each set")
-    options = parser.parse_args()
+    options = parser.parse_args(argv)
     right = np.zeros((2, 2))
     split = dict.fromkeys(("ink over pencil", "ink alone", "pencil alone"), 0)
     pages = 0
@@ -49,10 +51,14 @@ def main() -> None:
                 split[medium] += len({stroke.color for stroke in strokes}) > 1
                 if medium == "ink over pencil":
                     right += _judged(strokes, ink, pencil)
+    figures = {medium: {"pages": pages, "split": count} for medium, count in split.items()}
     for medium, count in split.items():
         print(f"{medium:16} split on {count} of {pages} pages")
     for k, medium in enumerate(("ink", "pencil")):
-        print(f"{medium:16} in its own colour: {right[k, k] / right[k].sum():.3f} of its length")
+        own = right[k, k] / right[k].sum()
+        print(f"{medium:16} in its own colour: {own:.3f} of its length")
+        figures["ink over pencil"][f"{medium} in its own colour"] = own
+    return figures
 
 
 def sketched(strokes: Sequence[Array], rng: np.random.Generator) -> list[Array]:

@@ -10,10 +10,11 @@ from __future__ import annotations
 
 import argparse
 import json
+import math
 import os
 import sys
 import time
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import asdict, dataclass
 from multiprocessing import get_context
@@ -21,9 +22,10 @@ from pathlib import Path
 
 import numpy as np
 
-from .judged_pages import DATA, Page, pages
+from .judged_pages import DATA, JudgedPage, pages
 from .methods import METHODS
 from .metrics import Score, evaluate, summarize
+from .run_record import Figures, Record
 from .tables import markdown
 
 # Column of the table: which figure, and how to print it.
@@ -38,23 +40,37 @@ COLUMNS = {
     "routing": ("routing", "{:.2f}"),
     "false joins": ("false_joins", "{:.3f}"),
     "failed": ("failed", "{:.0f}"),
+    "CPU s": ("cpu_s", "{:.2f}"),
 }
+_TITLES = {
+    "involute": "**Involute**",
+    "involute, geometric routing": "",  # says more about routing than about the whole
+    "involute, no network": "Involute without its networks",
+    "autotrace": "autotrace -centerline",
+}
+# Of what a column shows, the best is that with the least of this.
+_BEST: dict[str, Callable[[float], float]] = {
+    "chamfer": abs,
+    "length_diff": abs,
+    "density": lambda ratio: abs(math.log(ratio)),
+    "false_joins": abs,
+} | dict.fromkeys(("crossings", "precision", "f1", "routing"), lambda share: -share)
 
 
 @dataclass(frozen=True)
-class Result:
+class Verdict:
     """One page traced by one method; seconds of CPU; error: why it failed, or empty."""
 
     method: str
-    page: Page
+    page: JudgedPage
     score: Score
     seconds: float
     error: str
 
 
 def run(
-    methods: Iterable[str], drawings: list[Page], jobs: int, svg: Path | None = None
-) -> Iterator[Result]:
+    methods: Iterable[str], drawings: list[JudgedPage], jobs: int, svg: Path | None = None
+) -> Iterator[Verdict]:
     """Trace and judge every drawing with every method, in parallel processes."""
     work = [(method, page, svg) for page in drawings for method in methods]
     if jobs == 1:
@@ -71,7 +87,7 @@ def one_thread() -> None:
     cv2.setNumThreads(1)
 
 
-def _judge(work: tuple[str, Page, Path | None]) -> Result:
+def _judge(work: tuple[str, JudgedPage, Path | None]) -> Verdict:
     method, page, svg = work
     error = ""
     start = time.process_time()
@@ -83,7 +99,7 @@ def _judge(work: tuple[str, Page, Path | None]) -> Result:
     if svg:
         _write_svg(strokes, svg / method / f"{page.name}.svg")
     score = evaluate(strokes, page.true_strokes(), failed=bool(error))
-    return Result(method, page, score, seconds, error)
+    return Verdict(method, page, score, seconds, error)
 
 
 def _write_svg(strokes: list[np.ndarray], path: Path) -> None:
@@ -98,17 +114,41 @@ def _write_svg(strokes: list[np.ndarray], path: Path) -> None:
     )
 
 
-def table(rows: dict[str, list[Result]], head: str) -> str:
+def table(rows: dict[str, list[Verdict]], head: str) -> str:
     """A Markdown table, a row per name."""
     cells = []
     for name, results in rows.items():
-        figures = summarize(r.score for r in results)
-        values = [form.format(figures[key]) for key, form in COLUMNS.values()]
-        cells.append([name, *values, f"{np.median([r.seconds for r in results]):.2f}"])
-    return markdown([head, *COLUMNS, "CPU s"], cells)
+        found = figures(results)
+        values = [form.format(found[key]) for key, form in COLUMNS.values()]
+        cells.append([name, *values])
+    return markdown([head, *COLUMNS], cells)
 
 
-def main(argv: list[str] | None = None) -> int:
+def figures(results: Iterable[Verdict]) -> dict[str, float]:
+    """What `summarize` finds, and the median CPU seconds of a page."""
+    results = list(results)
+    found = summarize(r.score for r in results)
+    return found | {"cpu_s": float(np.median([r.seconds for r in results]))}
+
+
+def readme_table(record: Record) -> str:
+    """The README's table: its columns, the best of each in bold."""
+    columns = {name: column for name, column in COLUMNS.items() if name != "3+ branches"}
+    names = {_TITLES.get(method, method): own for method, own in record.figures.items() if own}
+    rows = [[name, *(form.format(own[key]) for key, form in columns.values())]
+            for name, own in names.items() if name]  # fmt: skip
+    for place, (key, form) in enumerate(columns.values(), 1):
+        if key not in _BEST or len(rows) < 2:
+            continue
+        best = min((own[key] for own in record.figures.values()), key=_BEST[key])
+        for row in rows:
+            if row[place] == form.format(best):
+                row[place] = f"**{row[place]}**"
+    return markdown(["method", *columns], rows)
+
+
+def main(argv: Sequence[str] | None = None) -> Figures:
+    """The command line."""
     parser = argparse.ArgumentParser(
         prog="python -m benchmarks.quality", description=__doc__.split("\n")[0]
     )
@@ -133,7 +173,7 @@ def main(argv: list[str] | None = None) -> int:
     except FileNotFoundError:
         parser.error(f"{arguments.data} has no manifest.json.")
 
-    results: list[Result] = []
+    results: list[Verdict] = []
     total = len(drawings) * len(arguments.methods)
     for result in run(arguments.methods, drawings, arguments.jobs, arguments.svg):
         results.append(result)
@@ -151,10 +191,10 @@ def main(argv: list[str] | None = None) -> int:
             print(table({n: [r for r in own if getattr(r.page, kind) == n] for n in names}, kind))
     if arguments.json:
         arguments.json.write_text(json.dumps(_plain(by_method), indent=1), "utf-8")
-    return 0
+    return {method: figures(own) for method, own in by_method.items()}
 
 
-def _plain(by_method: dict[str, list[Result]]) -> dict[str, object]:
+def _plain(by_method: dict[str, list[Verdict]]) -> dict[str, object]:
     return {
         method: {
             "summary": summarize(r.score for r in results),
@@ -174,4 +214,4 @@ def _plain(by_method: dict[str, list[Result]]) -> dict[str, object]:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

@@ -37,7 +37,7 @@ def main(archive: str, scan: str, result: str = "") -> None:
     _show(bpy.context.active_object)
     clock = _Clock()
     view = bpy.context.window_manager.involute_view
-    shown = _module("operators.view_state").shown_in(bpy.context)
+    shown = _module("operators.view.view_state").shown_in(bpy.context)
     rows = {"junctions": len(shown.table), "strokes": len(shown.trace.drawing.strokes)}
     view.show_overlay = False
     rows["without the overlay"] = {"redraw": _redraws()}
@@ -88,7 +88,7 @@ class _Clock:
     def __init__(self) -> None:
         self.reset()
         self._again = ""
-        overlay = _module("ui.overlay")
+        overlay = _module("ui.overlay.overlay")
         overlay.unregister()
         for draw, when in (
             (overlay.draw_rings_and_routes, "POST_VIEW"),
@@ -98,7 +98,7 @@ class _Clock:
                 self._twice(overlay, draw), (), "WINDOW", when
             )
             overlay._handles.append(handle)
-        for module in (overlay, _module("ui.cards_drawing")):
+        for module in (overlay, _module("ui.overlay.cards")):
             module.kept = self._with_timed_batches(module.kept)
 
     def reset(self) -> None:

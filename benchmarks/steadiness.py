@@ -21,9 +21,12 @@ import cv2
 import numpy as np
 from involute.command import trace_sequence
 from involute.engine import Drawing, Settings
+from involute.engine.arrays.ragged import along, arc
 from involute.engine.sequence import number_frames
 from involute.engine.sequence.stroke_matching import match_strokes, sample_strokes
 from scipy.spatial import cKDTree
+
+from .run_record import Figures
 
 Array = np.ndarray
 SIZE = 1024
@@ -49,15 +52,22 @@ class Tally:
         self.order += int(kept[upper].sum())
         self.orders += len(upper[0])
 
-    def share(self) -> str:
+    def figures(self) -> dict[str, float]:
         seen, orders = max(self.seen, 1), max(self.orders, 1)
-        return (
-            f"{self.seen:6d} {self.number / seen:8.3f} {self.order / orders:8.3f} "
-            f"{self.direction / seen:10.3f}"
-        )
+        return {
+            "lines": self.seen,
+            "number": self.number / seen,
+            "order": self.order / orders,
+            "direction": self.direction / seen,
+        }
+
+    def share(self) -> str:
+        lines, number, order, direction = self.figures().values()
+        return f"{lines:6.0f} {number:8.3f} {order:8.3f} {direction:10.3f}"
 
 
-def main() -> None:
+def main(argv: Sequence[str] | None = None) -> Figures:
+    """The command line."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     source = parser.add_mutually_exclusive_group(required=True)
     source.add_argument("--data", type=Path, help="folder of the training drawings (.npz)")
@@ -67,11 +77,10 @@ def main() -> None:
     parser.add_argument("--count", type=int, default=24, help="frames of each drawing")
     parser.add_argument("--jobs", type=int, default=0)
     parser.add_argument("--keep", type=Path, help="keep the rendered frames in this folder")
-    options = parser.parse_args()
+    options = parser.parse_args(argv)
     print(f"{'':18} {'lines':>6} {'number':>8} {'order':>8} {'direction':>10}")
     if options.frames:
-        _real(options.frames, options.jobs)
-        return
+        return _real(options.frames, options.jobs)
     traced, followed = Tally(), Tally()
     for drawing in options.drawings:
         strokes = read_drawing(options.data / f"{options.set}.npz", drawing)
@@ -89,8 +98,13 @@ def main() -> None:
                 labels = [label(d, t) for (_, d), t in zip(frames, truths, strict=True)]
                 for a, b in pairwise(labels):
                     tally.add(*_common(a, b))
-    print(f"{'traced':18} {traced.share()}")
-    print(f"{'traced, followed':18} {followed.share()}")
+    return _told({"traced": traced, "traced, followed": followed})
+
+
+def _told(tallies: dict[str, Tally]) -> Figures:
+    for name, tally in tallies.items():
+        print(f"{name:18} {tally.share()}")
+    return {name: tally.figures() for name, tally in tallies.items()}
 
 
 def read_drawing(path: Path, number: int) -> list[Array]:
@@ -153,9 +167,8 @@ def label(drawing: Drawing, truth: Sequence[Array]) -> dict[int, tuple[int, bool
 
 def dense(points: Array) -> Array:
     """The same line with a point a pixel."""
-    along = np.concatenate([[0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
-    at = np.linspace(0, along[-1], max(2, int(along[-1])))
-    return np.stack([np.interp(at, along, points[:, k]) for k in (0, 1)], 1)
+    whole = arc(points)[-1]
+    return along(points, np.linspace(0, whole, max(2, int(whole))))
 
 
 def _common(
@@ -166,16 +179,17 @@ def _common(
     return a[:, 0], b[:, 0], a[:, 1] == b[:, 1]
 
 
-def _real(folder: Path, jobs: int) -> None:
+def _real(folder: Path, jobs: int) -> Figures:
     """What a second, independent matching of the followed drawings says: no truth, so no proof."""
     frames = number_frames(sorted(p for p in folder.iterdir() if p.suffix in (".png", ".jpg")))
+    tallies = {}
     with tempfile.TemporaryDirectory() as parts:
         for follow in (False, True):
-            tally = Tally()
+            tally = tallies["traced, followed" if follow else "traced"] = Tally()
             drawings = trace_sequence(frames, Settings(), jobs=jobs, parts=parts, follow=follow)
             for (_, a), (_, b) in pairwise(drawings):
                 _count_matched(a, b, tally)
-            print(f"{'traced, followed' if follow else 'traced':18} {tally.share()}")
+    return _told(tallies)
 
 
 def _count_matched(a: Drawing, b: Drawing, tally: Tally) -> None:

@@ -15,15 +15,16 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
+from involute.engine.involution import MAX_LISTED_DEGREE
 from involute.engine.routing import geometric, network
 from involute.engine.routing.candidates import candidate_pairs
 from involute.engine.routing.encoding import along
-from involute.engine.routing.involution import MAX_LISTED_DEGREE
 from involute.engine.values import Pair, PlanarGraph
 from involute.synthesis.true_graph import graph_from_strokes
 from involute.training.routing.judge import Verdict, judge, tables
 
 from .judged_pages import DATA, pages
+from .run_record import Figures
 
 Array = np.ndarray
 Truth = tuple[PlanarGraph, Array]
@@ -38,43 +39,49 @@ _SHALLOW = 30.0  # degrees between two half-branches
 _CROWDED = 8.0  # px between two junctions
 
 
-def main() -> None:
+def main(argv: Sequence[str] | None = None) -> Figures:
+    """The command line."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--data", type=Path, default=DATA, help="folder with a manifest.json")
-    args = parser.parse_args()
+    args = parser.parse_args(argv)
     truths = [graph_from_strokes(page.true_strokes()) for page in pages(args.data)]
     truths = [(graph, partner) for graph, partner in truths if len(graph.junctions)]
     print(f"{len(truths)} drawings, perfect graphs\n")
     scorers = {name: s for name, s in SCORERS.items() if name != "network" or network.available()}
-    print(report(truths, scorers))
+    figures = {name: judged(truths, scorer) for name, scorer in scorers.items()}
+    print(report(figures))
     print(speed(truths, scorers))
+    return figures
 
 
-def report(truths: Sequence[Truth], scorers: dict[str, Scorer]) -> str:
-    """The figures of every scorer as a Markdown table."""
+def judged(truths: Sequence[Truth], scorer: Scorer) -> dict[str, float]:
+    """All figures of a scorer."""
     tough = np.concatenate([hard(graph) for graph, _ in truths])
-    columns = {}
-    for name, scorer in scorers.items():
-        verdict = decided(truths, scorer)
-        every, some = verdict.summary(), verdict.summary(tough)
-        columns[name] = {
-            "junctions": every["junctions"],
-            "pairs found": every["pairs_right"],
-            "pairs made that are wrong": every["pairs_wrong"],
-            "junctions wholly right": every["junctions_right"],
-            "strokes made per true stroke": _stroke_ratio(truths, verdict),
-            "hard junctions": some["junctions"],
-            "hard: pairs found": some["pairs_right"],
-            "hard: pairs made that are wrong": some["pairs_wrong"],
-            "hard: junctions wholly right": some["junctions_right"],
-            "expected calibration error": every["calibration_error"],
-            "truth among the two best": every["top2"],
-            "errors at the 10 % most doubtful": every["doubt_removes"],
-        }
-        for share in (0.1, 0.3):
-            alone, told = asked_again(truths, scorer, share)
-            columns[name][f"{share:.0%} fixed: errors at the others, before"] = alone
-            columns[name][f"{share:.0%} fixed: errors at the others, asked again"] = told
+    verdict = decided(truths, scorer)
+    every, some = verdict.summary(), verdict.summary(tough)
+    figures = {
+        "junctions": every["junctions"],
+        "pairs found": every["pairs_right"],
+        "pairs made that are wrong": every["pairs_wrong"],
+        "junctions wholly right": every["junctions_right"],
+        "strokes made per true stroke": _stroke_ratio(truths, verdict),
+        "hard junctions": some["junctions"],
+        "hard: pairs found": some["pairs_right"],
+        "hard: pairs made that are wrong": some["pairs_wrong"],
+        "hard: junctions wholly right": some["junctions_right"],
+        "expected calibration error": every["calibration_error"],
+        "truth among the two best": every["top2"],
+        "errors at the 10 % most doubtful": every["doubt_removes"],
+    }
+    for share in (0.1, 0.3):
+        alone, told = asked_again(truths, scorer, share)
+        figures[f"{share:.0%} fixed: errors at the others, before"] = alone
+        figures[f"{share:.0%} fixed: errors at the others, asked again"] = told
+    return figures
+
+
+def report(columns: Figures) -> str:
+    """The figures of every scorer as a Markdown table."""
     lines = ["| | " + " | ".join(columns) + " |", "|---" * (len(columns) + 1) + "|"]
     for row in next(iter(columns.values())):
         values = [columns[name][row] for name in columns]

@@ -7,42 +7,41 @@ only a few figures: memory does not grow with the number of images.
 
 from __future__ import annotations
 
-import hashlib
-import json
-import os
-import re
-import subprocess
 import sys
-import threading
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from contextlib import suppress
-from dataclasses import dataclass, field
-from functools import cache, lru_cache
-from importlib.metadata import PackageNotFoundError, version
+from dataclasses import dataclass, field, replace
 from pathlib import Path
-from queue import SimpleQueue
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from ..engine import weights
 from ..engine.errors import InvoluteError
-from ..engine.formats.whole_file import whole_file, write_text
+from ..engine.formats import FORMATS
+from ..engine.formats.whole_file import remove_leftovers, whole_files
 from ..engine.settings import Settings
+from . import machine, receipts
+from .inputs import Inputs
+from .receipts import Standing
 
-RECEIPTS = ".involute"  # folder beside the outputs; one small file for each drawing made there
+if TYPE_CHECKING:
+    from ..engine.drawing import Drawing
+
 _MEMORY_PER_WORKER = 1.5e9  # bytes, for a page of A4 at 300 dpi with room to spare
-_IMAGES_PER_WORKER = 200  # then a fresh process takes over
-_LIBRARIES = ("numpy", "opencv-contrib-python-headless", "networkx")  # they compute the drawings
+_KINDS = {kind.suffix: kind for kind in FORMATS}
 
 
 @dataclass(frozen=True)
 class Task:
-    """One image to trace into one or more files; the suffix of each says its format."""
+    """One image to trace into one or more files; the suffix of each says its format.
+
+    receipt: where it is noted what was made; "" = beside the first output.
+    """
 
     source: str
     outputs: tuple[str, ...]
     settings: Settings = field(default_factory=Settings)
     page: int = 0
+    receipt: str = ""
 
 
 @dataclass(frozen=True)
@@ -52,13 +51,23 @@ class Outcome:
     report: seconds of each stage, strokes, junctions, doubtful, width, height, peak_rss_mb; and
         aligned, where that was asked for.
     error: one sentence, or None when the outputs are there.
-    resumed: the outputs were there already.
+    resumed: nothing had to be made.
+    kept: outputs that were left alone because someone has edited them.
     """
 
     task: Task
     report: Mapping[str, Any]
     error: str | None = None
     resumed: bool = False
+    kept: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class _Todo:
+    """What is left to do of a task, and the outputs that someone has edited."""
+
+    task: Task
+    kept: tuple[str, ...] = ()
 
 
 def run(
@@ -66,67 +75,133 @@ def run(
     *,
     jobs: int = 0,
     resume: bool = False,
+    over: Collection[Standing] = (),
     progress: Callable[[str, float], None] | None = None,
+    begin: Callable[[Task], None] | None = None,
 ) -> Iterator[Outcome]:
     """Trace many images; yields every outcome as soon as it is there, in no fixed order.
 
-    Closing the iterator stops the work; no output is ever left half-written.
+    Closing the iterator stops the work; no output is ever left half-written, and no source of any
+    task is ever written.
 
     Args:
         jobs: processes at once; 0 = one per CPU core, as far as memory goes. 1 works in this
             process.
         resume: leave out what an earlier run with `resume` has made of the same image bytes with
-            the same settings; also keeps the receipts that a later run needs for that.
-        progress: called as progress(stage, fraction of the image) when working in this process.
+            the same settings, and what was edited since; also keeps the receipts that a later run
+            needs for that.
+        over: what `resume` replaces besides files that an earlier run has made.
+        progress: called as progress(stage, fraction of the image), and
+        begin: called with each task, when working in this process.
     """
     tasks = list(tasks)
-    _content.cache_clear()  # an image may have changed since the last run
-    jobs = min(jobs or _default_jobs(), len(tasks))
-    if resume:
-        _remove_leftovers(tasks)
+    receipts.forget_images()
+    inputs = Inputs(task.source for task in tasks)
+    remove_leftovers(Path(output) for task in tasks for output in task.outputs)
+
+    def before(task: Task) -> _Todo | Outcome:
+        """What is left to do of a task, or what became of it already."""
+        for output in task.outputs:
+            if output in inputs:
+                return Outcome(task, {}, inputs.refusal(output))
+        return _left_to_do(task, over) if resume else _Todo(task)
+
+    jobs = min(jobs or default_jobs(), len(tasks))
     if jobs <= 1:
-        for task in tasks:
-            before = _done_before(task) if resume else None
-            yield before or _outcome(task, perform(task, resume, progress))
-        return
-    pool = _Workers(jobs, resume)
+        yield from _here(tasks, before, progress, begin)
+    else:
+        yield from _elsewhere(tasks, before, jobs)
+
+
+def default_jobs() -> int:
+    """As many processes as the cores and the memory that this process may use allow."""
+    return max(1, min(machine.cores(), int(machine.memory() / _MEMORY_PER_WORKER)))
+
+
+def _here(
+    tasks: Sequence[Task],
+    before: Callable[[Task], _Todo | Outcome],
+    progress: Callable[[str, float], None] | None,
+    begin: Callable[[Task], None] | None,
+) -> Iterator[Outcome]:
+    for task in tasks:
+        if begin:
+            begin(task)
+        todo = before(task)
+        if isinstance(todo, Outcome):
+            yield todo
+        else:
+            yield _outcome(task, todo, perform(todo.task, progress))
+
+
+def _elsewhere(
+    tasks: Sequence[Task], before: Callable[[Task], _Todo | Outcome], jobs: int
+) -> Iterator[Outcome]:
+    from .workers import Workers
+
+    workers = Workers(jobs)
+
+    def trace(task: Task) -> Outcome:
+        todo = before(task)
+        if isinstance(todo, Outcome):
+            return todo
+        return _outcome(task, todo, workers.trace(todo.task))
+
     executor = ThreadPoolExecutor(jobs, thread_name_prefix="involute")
     try:
-        futures = [executor.submit(pool.trace, task) for task in tasks]
+        futures = [executor.submit(trace, task) for task in tasks]
         for future in as_completed(futures):
             yield future.result()
     finally:
-        pool.stop()
+        workers.stop()
         executor.shutdown(wait=True, cancel_futures=True)
 
 
-def _default_jobs() -> int:
-    cores = os.cpu_count() or 1
+def _outcome(task: Task, todo: _Todo, reply: Mapping[str, Any]) -> Outcome:
+    return Outcome(task, reply.get("report", {}), reply.get("error"), kept=todo.kept)
+
+
+def _left_to_do(task: Task, over: Collection[Standing]) -> _Todo | Outcome:
+    """A task for the outputs that are still to be made, or its outcome when there are none."""
+    path = Path(task.receipt) if task.receipt else receipts.path_for(Path(task.outputs[0]))
+    receipt = receipts.read(path)
     try:
-        memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
-    except (AttributeError, OSError, ValueError):  # Windows
-        return min(cores, 8)
-    return max(1, min(cores, int(memory / _MEMORY_PER_WORKER)))
+        key = receipts.fingerprint(task.source, task.page, task.settings)
+        stand = {o: _standing(o, receipt, key) for o in task.outputs}
+    except OSError:
+        return _Todo(replace(task, receipt=str(path)))  # tracing it will say what is wrong
+    for output, found in stand.items():
+        if found is Standing.FOREIGN and found not in over:
+            return Outcome(task, {}, foreign(output))
+    left = tuple(o for o, found in stand.items() if receipts.to_be_made(found, over))
+    kept = tuple(o for o, found in stand.items() if found is Standing.EDITED and o not in left)
+    if left:
+        return _Todo(replace(task, outputs=left, receipt=str(path)), kept)
+    return Outcome(task, receipt.report, resumed=True, kept=kept)
 
 
-def perform(
-    task: Task, receipt: bool = False, progress: Callable[[str, float], None] | None = None
-) -> dict[str, Any]:
+def _standing(output: str, receipt: receipts.Receipt, key: str) -> Standing:
+    place = Path(output)
+    return receipts.standing(place, _KINDS[place.suffix.lower()], receipt, key)
+
+
+def foreign(output: str) -> str:
+    """Why a file that no earlier run made is left alone."""
+    return f"{output} exists already and no run with --resume made it; --overwrite replaces it."
+
+
+def perform(task: Task, progress: Callable[[str, float], None] | None = None) -> dict[str, Any]:
     """Trace one image in this process; returns {"report": ...} or {"error": sentence}."""
     from ..engine.pipeline import vectorize
 
     try:
+        key = ""
         with suppress(OSError):  # a missing file is vectorize's to report
-            key = fingerprint(task) if receipt else ""
+            if task.receipt:
+                key = receipts.fingerprint(task.source, task.page, task.settings)
         drawing = vectorize(task.source, task.settings, progress, page=task.page)
-        for output in task.outputs:
-            drawing.save(output)
         report = summary(drawing)
-        if receipt:
-            path = _receipt(task)
-            path.parent.mkdir(exist_ok=True)
-            with whole_file(path) as part:
-                write_text(json.dumps({"key": key, "report": report}), part)
+        _write(drawing, task, key, report)
     except InvoluteError as error:
         return {"error": str(error)}
     except MemoryError:
@@ -136,7 +211,29 @@ def perform(
     return {"report": report}
 
 
-def summary(drawing) -> dict[str, Any]:
+def _write(drawing: Drawing, task: Task, key: str, report: Mapping[str, Any]) -> None:
+    """Write the outputs of a task, all or none; the receipt first.
+
+    Raises:
+        InvoluteError: they can't be written, or one is the image itself.
+    """
+    outputs = [Path(output) for output in task.outputs]
+    source = Inputs([task.source])
+    for output in outputs:
+        if output in source:
+            raise InvoluteError(source.refusal(output))
+
+    def note(parts: Sequence[Path]) -> None:
+        if task.receipt:
+            files = dict(zip((output.name for output in outputs), parts, strict=True))
+            receipts.note(Path(task.receipt), key, files, report)
+
+    with whole_files(outputs, note) as parts:
+        for output, part in zip(outputs, parts, strict=True):
+            _KINDS[output.suffix.lower()].write(drawing, part)
+
+
+def summary(drawing: Drawing) -> dict[str, Any]:
     """The figures of one drawing for a report."""
     aligned = {"aligned": drawing.aligned} if drawing.settings.align else {}
     return {
@@ -148,7 +245,15 @@ def summary(drawing) -> dict[str, Any]:
         "height": drawing.size[1],
         "peak_rss_mb": peak_rss_mb(),
         **aligned,
+        **_checked(drawing),
     }
+
+
+def _checked(drawing) -> dict[str, Any]:
+    """What the drawing says of itself: shares lost and invented, notes and warnings."""
+    found = drawing.fidelity
+    figures = {"lost": round(found.lost, 5), "invented": round(found.invented, 5)} if found else {}
+    return {**figures, "notes": list(drawing.notes), "warnings": list(drawing.warnings)}
 
 
 def peak_rss_mb() -> float | None:
@@ -159,196 +264,3 @@ def peak_rss_mb() -> float | None:
         return None
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     return round(peak / (1e6 if sys.platform == "darwin" else 1e3), 1)
-
-
-def fingerprint(task: Task) -> str:
-    """Changes whenever the drawing would: image bytes, page, settings, formats, program, weights.
-
-    Raises:
-        OSError: the image can't be read.
-    """
-    info = os.stat(task.source)
-    image = _content(task.source, info.st_size, info.st_mtime_ns, info.st_ctime_ns)
-    digest = hashlib.blake2b(image, digest_size=16)
-    recipe = [
-        task.settings.as_dict(),
-        task.page,
-        sorted(Path(output).suffix.lower() for output in task.outputs),
-        _program(),
-    ]
-    digest.update(json.dumps(recipe, sort_keys=True).encode())
-    return digest.hexdigest()
-
-
-@lru_cache(4)
-def _content(source: str, size: int, changed: int, status: int) -> bytes:
-    """The hash of a file's bytes; remembered for a run: the images of a movie are in one file."""
-    digest = hashlib.blake2b(digest_size=32)
-    with open(source, "rb") as file:
-        while block := file.read(1 << 20):
-            digest.update(block)
-    return digest.digest()
-
-
-@cache
-def _program() -> str:
-    """The hash of what makes the drawings: all sources and weights, and the libraries' versions."""
-    folder = Path(weights.__file__).resolve().parents[1]
-    files = [*folder.rglob("*.py"), *(weights.FOLDER / name for name in weights.names())]
-    digest = hashlib.blake2b(digest_size=16)
-    for file in sorted(files):
-        content = hashlib.blake2b(file.read_bytes()).hexdigest()
-        digest.update(f"{file.relative_to(folder).as_posix()} {content}\n".encode())
-    for name in _LIBRARIES:
-        with suppress(PackageNotFoundError):
-            digest.update(f"{name} {version(name)}\n".encode())
-    return digest.hexdigest()
-
-
-def _receipt(task: Task) -> Path:
-    first = Path(task.outputs[0])
-    return first.parent / RECEIPTS / f"{first.name}.json"
-
-
-def _done_before(task: Task) -> Outcome | None:
-    """The outcome of an earlier run when its outputs still stand for this task."""
-    try:
-        receipt = json.loads(_receipt(task).read_text(encoding="utf-8"))
-        if receipt["key"] == fingerprint(task) and all(map(os.path.exists, task.outputs)):
-            return Outcome(task, receipt["report"], resumed=True)
-    except (OSError, ValueError, KeyError):
-        pass
-    return None
-
-
-def _remove_leftovers(tasks: Iterable[Task]) -> None:
-    """Temporary files of these very outputs that a killed run has left."""
-    folders: dict[Path, set[str]] = {}
-    for output in (Path(o) for task in tasks for o in task.outputs):
-        folders.setdefault(output.parent, set()).add(output.stem[:100] + output.suffix)
-    for folder, names in folders.items():
-        with suppress(OSError):
-            for entry in os.scandir(folder):
-                match = re.fullmatch(r"\.(.+)\.\d+\.part(\.\w+)", entry.name)
-                if match and match[1] + match[2] in names:
-                    os.unlink(entry.path)
-
-
-def _outcome(task: Task, reply: Mapping[str, Any]) -> Outcome:
-    return Outcome(task, reply.get("report", {}), reply.get("error"))
-
-
-class _Workers:
-    """A handful of worker processes, each used by one thread at a time."""
-
-    def __init__(self, jobs: int, resume: bool) -> None:
-        self._threads = max(1, (os.cpu_count() or 1) // jobs)
-        self._resume = resume
-        self._idle: SimpleQueue[_Worker] = SimpleQueue()
-        self._all: set[_Worker] = set()
-        self._lock = threading.Lock()
-        self._stopped = False
-        for _ in range(jobs):
-            self._idle.put(_Worker())
-
-    def trace(self, task: Task) -> Outcome:
-        """Wait for an idle worker and let it trace."""
-        if self._resume and (before := _done_before(task)):
-            return before
-        worker = self._idle.get()
-        try:
-            with self._lock:
-                if self._stopped:
-                    return Outcome(task, {}, "Stopped.")
-                worker.ensure(self._threads)
-                self._all.add(worker)
-            return _outcome(task, worker.ask(task, self._resume))
-        finally:
-            self._idle.put(worker)
-
-    def stop(self) -> None:
-        """End all processes at once; safe at any time, since outputs appear only when whole."""
-        with self._lock:
-            self._stopped = True
-            for worker in self._all:
-                worker.end()
-
-
-class _Worker:
-    """One process that traces images one after the other; started when first needed."""
-
-    def __init__(self) -> None:
-        self._process: subprocess.Popen[str] | None = None
-        self._left = 0
-
-    def ensure(self, threads: int) -> None:
-        """Have a live process with images left to trace."""
-        if self._process and (self._left <= 0 or self._process.poll() is not None):
-            self.end()
-        if self._process is None:
-            self._process = _start(threads)
-            self._left = _IMAGES_PER_WORKER
-        self._left -= 1
-
-    def ask(self, task: Task, receipt: bool) -> Mapping[str, Any]:
-        request = {
-            "source": task.source,
-            "outputs": task.outputs,
-            "page": task.page,
-            "settings": task.settings.as_dict(),
-            "receipt": receipt,
-        }
-        process = self._process
-        try:
-            process.stdin.write(json.dumps(request) + "\n")
-            process.stdin.flush()
-            return json.loads(process.stdout.readline())
-        except (OSError, ValueError):
-            with suppress(subprocess.TimeoutExpired):
-                process.wait(1)
-            process.kill()
-            code = process.wait()
-            return {"error": f"The process that traced it has died (exit code {code})."}
-
-    def end(self) -> None:
-        if self._process:
-            self._process.kill()
-            self._process.wait()
-            for stream in (self._process.stdin, self._process.stdout):
-                with suppress(OSError):
-                    stream.close()
-            self._process = None
-
-
-def _start(threads: int) -> subprocess.Popen[str]:
-    """Start worker.py with this program's module path; OpenCV gets that many threads."""
-    environment = {**os.environ, "OMP_NUM_THREADS": str(threads), "PYTHONIOENCODING": "utf-8"}
-    process = subprocess.Popen(
-        [python(), "-P", str(Path(__file__).with_name("worker.py"))],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.DEVNULL,
-        env=environment,
-        encoding="utf-8",
-        creationflags=getattr(subprocess, "CREATE_NO_WINDOW", 0),
-    )
-    process.stdin.write(json.dumps({"path": sys.path, "threads": threads}) + "\n")
-    process.stdin.flush()
-    return process
-
-
-def python() -> str:
-    """The interpreter to start workers with.
-
-    Raises:
-        InvoluteError: this program runs without one (then only jobs = 1 works).
-    """
-    names = [
-        sys.executable,
-        *(Path(sys.prefix, "bin").glob("python3*")),
-        Path(sys.prefix, "python.exe"),
-    ]
-    for name in names:
-        if name and "python" in Path(name).name.lower() and Path(name).is_file():
-            return str(name)
-    raise InvoluteError("There is no Python to start other processes with; trace with 1 job.")

@@ -11,6 +11,7 @@ from __future__ import annotations
 import json
 import shlex
 from collections.abc import Iterable, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +19,8 @@ from ..engine.errors import InvoluteError
 from ..engine.formats.whole_file import whole_file, write_text
 from .planning import make_folder
 
+TEMPLATE, VALUES = "template.json", "parameter_values.json"
+_VERSION = "jobtemplate-2023-09"
 _LONGEST = 1024  # characters of a parameter's value
 
 
@@ -44,68 +47,111 @@ def write_job(
             as an extension.
 
     Raises:
-        InvoluteError: the bundle can't be written, or the command is empty.
+        InvoluteError: the bundle can't be written, or the command or a name can't be put into it.
     """
-    words = shlex.split(command)
+    try:
+        words = shlex.split(command)
+    except ValueError as error:
+        raise InvoluteError(f"Can't read the command {command!r}: {error}.") from None
     if not words:
-        raise InvoluteError("Say how the workers call Involute, such as --command involute.")
+        raise InvoluteError("Say how the workers call Involute, such as --call involute.")
     if chunk < 1:
         raise InvoluteError("A chunk must hold at least one frame.")
+    options = list(options)
+    paths = {"Images": images, "OutputDir": output.parent}
+    values = {name: path.absolute().as_posix() for name, path in paths.items()}
+    for text in (*words, *options, output.name, *values.values()):
+        _check_text(text)
+    template = _template(words, options, output, images.is_dir(), frame_ranges(numbers), chunk)
+    # The format wants paths from the one who submits: defaults may not be absolute.
+    given = [{"name": name, "value": value} for name, value in values.items()]
+    make_folder(folder)
+    files = {folder / TEMPLATE: template, folder / VALUES: {"parameterValues": given}}
+    for path in files:
+        _check_free(path)
+    for path, content in files.items():
+        with whole_file(path) as part:
+            write_text(json.dumps(content, indent=2) + "\n", part)
+    return folder / TEMPLATE
+
+
+def _check_text(text: str) -> None:
+    """Refuse what a farm would read as something else.
+
+    Raises:
+        InvoluteError: says what.
+    """
+    if "{{" in text or "}}" in text:
+        raise InvoluteError(f"{text[:60]!r} would be a parameter to a farm; choose another name.")
+    if any(ord(sign) < 32 or ord(sign) == 127 or 0xD800 <= ord(sign) < 0xE000 for sign in text):
+        raise InvoluteError(f"{text[:60]!r} is no text for a farm; choose another name.")
+    if len(text) > _LONGEST:
+        raise InvoluteError(f"{text[:60]!r} is too long for a farm; choose a shorter name.")
+
+
+def _check_free(path: Path) -> None:
+    """Refuse to replace a file that is not of a job.
+
+    Raises:
+        InvoluteError: it stands there.
+    """
+    if not path.exists():
+        return
+    text = ""
+    with suppress(OSError, UnicodeDecodeError):
+        text = path.read_text("utf-8")
+    if _VERSION not in text and '"parameterValues"' not in text:
+        raise InvoluteError(f"{path} exists and is not of a job; choose another folder.")
+
+
+def _template(
+    words: Sequence[str],
+    options: Sequence[str],
+    output: Path,
+    many_images: bool,
+    frames: str,
+    chunk: int,
+) -> dict[str, Any]:
+    """The job: trace chunks, then join them."""
     program, first = words[0], [*words[1:], "trace", "{{Param.Images}}", "--sequence"]
     first += ["--parts", "{{Param.OutputDir}}/parts", "--skip-failed", *options]
     report = ["--report", f"{{{{Param.OutputDir}}}}/{output.stem}-report.json", "--overwrite"]
     target = ["-o", f"{{{{Param.OutputDir}}}}/{output.name}"]
-    template = {
-        "specificationVersion": "jobtemplate-2023-09",
+    chunks = {
+        "name": "Frame",
+        "type": "CHUNK[INT]",
+        "range": "{{Param.Frames}}",
+        "chunks": {
+            "defaultTaskCount": "{{Param.ChunkSize}}",
+            "rangeConstraint": "CONTIGUOUS",
+        },
+    }
+    tracing = [*first, "--frames", "{{Task.Param.Frame}}", "--jobs", "0"]
+    joining = [*first, "--frames", "{{Param.Frames}}", *target, *report]
+    return {
+        "specificationVersion": _VERSION,
         "extensions": ["TASK_CHUNKING"],
         "name": f"Involute {output.stem}"[:128],
         "description": "Traces a sequence of scanned drawings.",
         "parameterDefinitions": [
-            _path("Images", "IN", images.is_dir(), "The scanned drawings"),
+            _path("Images", "IN", many_images, "The scanned drawings"),
             _path("OutputDir", "OUT", True, "Where the drawing goes"),
-            _value("Frames", "STRING", frame_ranges(numbers), "Numbers of the drawings"),
+            _value("Frames", "STRING", frames, "Numbers of the drawings"),
             {**_value("ChunkSize", "INT", chunk, "Drawings that one task traces"), "minValue": 1},
         ],
         "steps": [
             {
                 "name": "Trace",
-                "parameterSpace": {
-                    "taskParameterDefinitions": [
-                        {
-                            "name": "Frame",
-                            "type": "CHUNK[INT]",
-                            "range": "{{Param.Frames}}",
-                            "chunks": {
-                                "defaultTaskCount": "{{Param.ChunkSize}}",
-                                "rangeConstraint": "CONTIGUOUS",
-                            },
-                        }
-                    ]
-                },
-                "script": _script(
-                    program, [*first, "--frames", "{{Task.Param.Frame}}", "--jobs", "0"]
-                ),
+                "parameterSpace": {"taskParameterDefinitions": [chunks]},
+                "script": _script(program, tracing),
             },
             {
                 "name": "Join",
                 "dependencies": [{"dependsOn": "Trace"}],
-                "script": _script(
-                    program, [*first, "--frames", "{{Param.Frames}}", *target, *report]
-                ),
+                "script": _script(program, joining),
             },
         ],
     }
-    paths = {"Images": images, "OutputDir": output.parent}
-    values = [{"name": n, "value": p.absolute().as_posix()} for n, p in paths.items()]
-    make_folder(folder)
-    for name, content in (
-        ("template.json", template),
-        # The format wants paths from the one who submits: defaults may not be absolute.
-        ("parameter_values.json", {"parameterValues": values}),
-    ):
-        with whole_file(folder / name) as part:
-            write_text(json.dumps(content, indent=2) + "\n", part)
-    return folder / "template.json"
 
 
 def frame_ranges(numbers: Iterable[int]) -> str:

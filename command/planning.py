@@ -1,18 +1,19 @@
-"""What to trace into what: images, folders and globs go to files or into a folder."""
+"""What to trace into what: images go to files or into a folder, under names that never collide."""
 
 from __future__ import annotations
 
-import glob
-import re
+import os
+import unicodedata
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
+from hashlib import blake2b
 from pathlib import Path
 
 from ..engine.errors import InvoluteError
 from ..engine.formats import Format, either
 
-IMAGES = frozenset({".png", ".jpg", ".jpeg", ".tif", ".tiff", ".webp", ".bmp"})
+_LONGEST = 240  # bytes of a title; 255 with suffix, and room for its receipt
 
 
 @dataclass(frozen=True)
@@ -30,7 +31,7 @@ class Target:
 
 
 @dataclass(frozen=True)
-class Page:
+class PlannedPage:
     """One drawing to make: a page of an image, the name it goes by and the files it goes to."""
 
     source: Path
@@ -69,34 +70,12 @@ def target(output: str, chosen: str | None, formats: Sequence[Format]) -> Target
     return Target(path, tuple(known[name] for name in dict.fromkeys(names)), False)
 
 
-def images(inputs: Iterable[str]) -> Iterator[Path]:
-    """The images that files, folders and globs stand for; missing files too, to be told later.
-
-    Raises:
-        InvoluteError: a folder or a glob without an image.
-    """
-    for text in inputs:
-        path = Path(text)
-        if path.is_dir():
-            found = [p for p in path.iterdir() if p.suffix.lower() in IMAGES and p.is_file()]
-        elif not path.exists() and glob.has_magic(text):
-            found = [p for p in map(Path, glob.iglob(text, recursive=True)) if p.is_file()]
-        else:
-            yield path
-            continue
-        if not found:
-            raise InvoluteError(f"There is no image in {text}; check the path.")
-        yield from sorted(found, key=natural)
-
-
-def natural(path: Path) -> list[tuple[int, int, str]]:
-    """Sorts page2 before page10."""
-    parts = re.split(r"(\d+)", str(path).lower())
-    return [(0, int(p), "") if p.isdecimal() else (1, 0, p) for p in parts]
-
-
-def pages(sources: Sequence[tuple[Path, int]], target: Target) -> list[Page]:
+def pages(sources: Sequence[tuple[Path, int]], target: Target) -> list[PlannedPage]:
     """One entry a page, with outputs that never collide.
+
+    A name depends on the image's own name alone, unless several would get the same: then all of
+    them take their suffix into their names, and where that is not enough, a few letters that
+    stand for their folder and full name. So no drawing gets the name that another one had.
 
     Args:
         sources: images and their numbers of pages; an image named twice counts once.
@@ -110,32 +89,75 @@ def pages(sources: Sequence[tuple[Path, int]], target: Target) -> list[Page]:
             f"{len(sources)} images can't go into one {target.formats[0].suffix}; "
             "give a folder as output, or a .blend."
         )
-    alone = target.is_file and not target.shared
-    stems = [target.path.stem if alone else path.stem for path, _ in sources]
-    twice = Counter(stem.lower() for stem in stems)
-    names: list[str] = []
-    taken: set[str] = set()
-    for (path, _), stem in zip(sources, stems, strict=True):
-        name = stem if twice[stem.lower()] == 1 else f"{stem}-{path.suffix.lstrip('.')}"
-        serial = 2
-        base = name
-        while name.lower() in taken:
-            name, serial = f"{base}-{serial}", serial + 1
-        taken.add(name.lower())
-        names.append(name)
+    if target.is_file and not target.shared:
+        named = [[target.path.stem]] * len(sources)
+    else:
+        named = [_names(path) for path, _ in sources]
     folder = target.path.parent if target.is_file else target.path
     found = []
-    for (path, count), name in zip(sources, names, strict=True):
-        digits = len(str(count))
-        for page in range(count):
-            title = name if count == 1 else f"{name}-{page + 1:0{digits}d}"
-            outputs = (
-                (target.path,)
-                if target.shared
-                else tuple(folder / f"{title}{f.suffix}" for f in target.formats)
-            )
-            found.append(Page(path, page, title, outputs))
+    for (path, _), titles in zip(sources, _distinct(named, sources), strict=True):
+        for page, title in enumerate(titles):
+            outputs = tuple(folder / f"{title}{f.suffix}" for f in target.formats)
+            outputs = (target.path,) if target.shared else outputs
+            found.append(PlannedPage(path, page, title, outputs))
     return found
+
+
+def _distinct(
+    named: Sequence[Sequence[str]], sources: Sequence[tuple[Path, int]]
+) -> list[list[str]]:
+    """The titles of all pages of each image; each image takes the first of its names that serves.
+
+    Raises:
+        InvoluteError: there is none.
+    """
+    level = [0] * len(named)
+    while True:
+        titles = [
+            _titles(names[at], count)
+            for names, at, (_, count) in zip(named, level, sources, strict=True)
+        ]
+        times = Counter(folded(title) for all_of_one in titles for title in all_of_one)
+        clash = [any(times[folded(t)] > 1 for t in all_of_one) for all_of_one in titles]
+        if not any(clash):
+            return titles
+        for index, clashes in enumerate(clash):
+            if clashes and level[index] + 1 == len(named[index]):
+                raise InvoluteError(
+                    f"Drawings would get the same name {titles[index][0]}; rename an image."
+                )
+            level[index] += clashes
+
+
+def _names(path: Path) -> list[str]:
+    """What the drawings of an image may be called, the simplest first."""
+    stem, suffix = path.stem, path.suffix.lstrip(".")
+    plain = [f"{path.parent.name}/{path.name}", str(path.absolute())]
+    marks = [blake2b(os.fsencode(text), digest_size=3).hexdigest() for text in plain]
+    with_suffix = f"{stem}-{suffix}" if suffix else stem
+    return [stem, with_suffix, *(f"{with_suffix}-{mark}" for mark in marks)]
+
+
+def _titles(name: str, count: int) -> list[str]:
+    digits = len(str(count))
+    titles = [name] if count == 1 else [f"{name}-{page + 1:0{digits}d}" for page in range(count)]
+    return [_short_enough(title) for title in titles]
+
+
+def folded(title: str) -> str:
+    """Equal for names that some file system takes for the same."""
+    return unicodedata.normalize("NFC", title).casefold()
+
+
+def _short_enough(title: str) -> str:
+    """The title, cut where the names of its files would be longer than file systems take."""
+    if len(os.fsencode(title)) <= _LONGEST:
+        return title
+    mark = blake2b(os.fsencode(title), digest_size=3).hexdigest()
+    kept = title
+    while len(os.fsencode(kept)) > _LONGEST - len(mark) - 1:
+        kept = kept[:-1]
+    return f"{kept}-{mark}"
 
 
 def make_folder(folder: Path) -> Path:

@@ -5,16 +5,18 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from os import PathLike
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 from ..engine.drawing import Drawing
 from ..engine.errors import InvoluteError
 from ..engine.sequence.follow import Follower
 from ..engine.sequence.frames import Frame
 from ..engine.settings import Settings
-from . import batch
+from . import batch, receipts
 from .planning import make_folder
+from .receipts import Standing
+from .temporary import temporary_folder
 
+PARTS_REPLACE = frozenset({Standing.FOREIGN})  # a part without receipt is of an older Involute
 Progress = Callable[[Frame, batch.Outcome], None]
 
 
@@ -45,7 +47,7 @@ def trace_sequence(
         InvoluteError: a parts folder that can't be made.
     """
     if parts is None:
-        with TemporaryDirectory(prefix="involute-") as folder:
+        with temporary_folder() as folder:
             yield from trace_sequence(
                 frames, settings, jobs=jobs, parts=folder, follow=follow, progress=progress
             )
@@ -55,7 +57,7 @@ def trace_sequence(
     follower = Follower()
     done: dict[int, batch.Outcome] = {}
     following = 0
-    for outcome in batch.run(tasks, jobs=jobs, resume=True):
+    for outcome in batch.run(tasks, jobs=jobs, resume=True, over=PARTS_REPLACE):
         done[numbers[outcome.task]] = outcome
         if progress:
             progress(frames[numbers[outcome.task]], outcome)
@@ -76,7 +78,11 @@ def part_tasks(
         InvoluteError: the folder can't be made.
     """
     folder = make_folder(Path(parts))
-    return [batch.Task(f.path, (str(folder / part_name(f)),), settings, f.page) for f in frames]
+    places = [folder / part_name(frame) for frame in frames]
+    return [
+        batch.Task(f.path, (str(at),), settings, f.page, str(receipts.path_for(at)))
+        for f, at in zip(frames, places, strict=True)
+    ]
 
 
 def part_name(frame: Frame) -> str:
@@ -91,5 +97,5 @@ def _drawing(outcome: batch.Outcome) -> Drawing | InvoluteError:
     try:
         return Drawing.load(part)
     except InvoluteError:  # damaged since: make it anew
-        reply = batch.perform(outcome.task, receipt=True)
+        reply = batch.perform(outcome.task)
         return InvoluteError(reply["error"]) if "error" in reply else Drawing.load(part)

@@ -38,9 +38,13 @@ def main() -> None:
     while True:
         asked = tasks.get()
         task = batch.Task(
-            asked["source"], tuple(asked["outputs"]), settings(**asked["settings"]), asked["page"]
+            asked["source"],
+            tuple(asked["outputs"]),
+            settings(**asked["settings"]),
+            asked["page"],
+            asked["receipt"],
         )
-        answers.write(json.dumps(batch.perform(task, receipt=asked["receipt"])) + "\n")
+        answers.write(json.dumps(batch.perform(task)) + "\n")
         answers.flush()
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from involute.command.setting_options import manual_tables
 from involute.engine.formats import FORMATS
+from involute.engine.formats.picture_kinds import KINDS
 from involute.operators.blend_file import BLEND
 
 MANUAL = Path(__file__).resolve().parent / "manual"
@@ -19,7 +20,17 @@ def formats() -> str:
     return "\n".join(["| file | what it is |", "|---|---|", *rows])
 
 
-TABLES = {"settings": manual_tables, "formats": formats}
+def pictures() -> str:
+    """What pictures are read, and what to do with the others."""
+    rows = [
+        f"| {kind.name} | {' '.join(f'`{suffix}`' for suffix in kind.suffixes)} | "
+        f"{f'not read: {kind.remedy}' if kind.remedy else kind.about or 'read'} |"
+        for kind in KINDS
+    ]
+    return "\n".join(["| picture | files | |", "|---|---|---|", *rows])
+
+
+TABLES = {"pictures": pictures, "settings": manual_tables, "formats": formats}
 
 
 def with_tables(text: str) -> str:

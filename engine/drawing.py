@@ -14,14 +14,17 @@ from os import PathLike
 import numpy as np
 
 from .errors import InvoluteError
+from .fidelity import Fidelity, fidelity, warnings
+from .graph.editing import cut_branch, join_ends, place_on
 from .routing import checked_pairs, route
+from .routing.lifting import goes_on
 from .settings import Settings
 from .strokes import Page, build, walk
-from .values import Junction, Pair, PlanarGraph, Routing, Scan, Stroke
+from .values import Array, Junction, Pair, PlanarGraph, Routing, Scan, Stroke
 
-Array = np.ndarray
 Fill = tuple[Array, ...]
 
+STROKE_SETTINGS = ("smoothing", "curve", "tolerance")  # change nothing but the last stage
 DOUBTFUL = 0.3  # doubt from which on a junction is worth a look
 
 
@@ -38,6 +41,9 @@ class Drawing:
     scale: input pixels per working pixel, the unit in which routing judges lengths.
     aligned: False when the page was to be aligned and had nothing to align by; not kept in files.
     region_colors: (R, 3) uint8 sRGB of `regions`; None = all are white.
+    fidelity: how faithful it was to the ink when it was traced; None when nobody looked.
+    notes: what was left out of it on purpose, a sentence each.
+    warnings: what is wrong with it, each with what to do about it.
     page: what all strokes share, for rerouting; None = found from the graph when first needed. Not
         kept in files.
     """
@@ -52,6 +58,9 @@ class Drawing:
     scale: float = 1.0
     aligned: bool = True
     region_colors: Array | None = None
+    fidelity: Fidelity | None = None
+    notes: tuple[str, ...] = ()
+    warnings: tuple[str, ...] = ()
     page: Page | None = field(default=None, repr=False)
 
     @classmethod
@@ -78,6 +87,7 @@ class Drawing:
             settings=settings,
             scale=float(scan.scale),
             aligned=scan.aligned,
+            notes=scan.notes,
             page=page,
         )
         if settings.regions and scan.color is not None:
@@ -91,15 +101,30 @@ class Drawing:
         """The same drawing with the time that each stage took."""
         return replace(self, seconds=dict(seconds))
 
+    def compared_with(self, scan: Scan) -> Drawing:
+        """The same drawing, checked against the ink of the page that it was traced from."""
+        found = fidelity(self.strokes, self.fills, scan.ink, self.scale, self.settings.width_scale)
+        return replace(self, fidelity=found, warnings=warnings(found, scan.light))
+
     @cached_property
     def junctions(self) -> tuple[Junction, ...]:
         """All junctions as the user sees them, in graph.junctions order."""
+        return self._places[: len(self.graph.junctions)]
+
+    @cached_property
+    def corners(self) -> tuple[Junction, ...]:
+        """Where only two half-branches meet and the pen may have been lifted, in graph.corners
+        order; their numbers go on after those of the junctions."""
+        return self._places[len(self.graph.junctions) :]
+
+    @cached_property
+    def _places(self) -> tuple[Junction, ...]:
         graph, routing = self.graph, self.routing
         order, starts = (values.tolist() for values in graph.halves_at)
         partner, position = routing.partner.tolist(), graph.vertices.tolist()
         locked = routing.locked.tolist()
         found = []
-        for index, vertex in enumerate(graph.junctions.tolist()):
+        for index, vertex in enumerate(graph.places.tolist()):
             halves = tuple(order[starts[vertex] : starts[vertex + 1]])
             found.append(
                 Junction(
@@ -130,13 +155,14 @@ class Drawing:
         return tuple(int(index) for index in order if doubt[index] >= DOUBTFUL)
 
     def reroute(self, junction: int, pairs: Iterable[Pair]) -> Drawing:
-        """Join exactly these half-branches at a junction, end the others there, and lock it.
+        """Join exactly these half-branches at a junction or corner, end the others there, and lock
+        it.
 
         Raises:
             InvoluteError: not disjoint pairs of half-branches of that junction.
         """
         pairs = checked_pairs(self.graph, junction, tuple(pairs))
-        halves = self.graph.halves_of(self.graph.junctions[junction])
+        halves = self.graph.halves_of(self.graph.places[junction])
         partner = self.routing.partner.copy()
         partner[halves] = halves
         for a, b in pairs:
@@ -144,11 +170,12 @@ class Drawing:
         return self._with_partner(partner)._with_locked([junction], True)
 
     def lock(self, junction: int) -> Drawing:
-        """Keep this junction as it is: it counts as certain, and `ask_again` learns from it."""
+        """Keep this junction or corner as it is: it counts as certain, and `ask_again` learns from
+        it."""
         return self._with_locked([junction], True)
 
     def unlock(self, junction: int) -> Drawing:
-        """Let `ask_again` decide this junction anew."""
+        """Let `ask_again` decide this junction or corner anew."""
         return self._with_locked([junction], False)
 
     def accept_above(self, probability: float) -> Drawing:
@@ -160,16 +187,87 @@ class Drawing:
         """The drawing as it was when its routing was this, for what stores only that.
 
         Args:
-            partner: (2B,) int32 and locked: (J,) bool, as in `Routing`.
+            partner: (2B,) int32 and locked: (J + C,) bool, as in `Routing`; what is missing at its
+                end, as in files of before corners were decided, is not locked.
         """
         drawing = self._with_partner(partner)
-        return replace(drawing, routing=replace(drawing.routing, locked=locked))
+        whole = np.zeros(len(self.graph.places), bool)
+        whole[: len(locked)] = locked[: len(whole)]
+        return replace(drawing, routing=replace(drawing.routing, locked=whole))
+
+    def with_corners(self, bias: float) -> Drawing:
+        """Decide all corners that are not locked anew, without asking the picture again.
+
+        Args:
+            bias: -1 = strokes run through all corners, 0 = where that is more probable, 1 = they
+                end wherever the pen may have been lifted.
+
+        Raises:
+            InvoluteError: the bias is out of range.
+        """
+        settings = replace(self.settings, corners=float(bias))
+        first = len(self.graph.junctions)
+        free = ~self.routing.locked[first:]
+        pairs = self._pairs_at_corners[free]
+        on = goes_on(self.routing.pair_score[len(self.routing.pairs) - len(free) :][free], bias)
+        partner = self.routing.partner.copy()
+        partner[pairs] = np.where(on[:, None], pairs[:, ::-1], pairs)
+        return replace(self._with_partner(partner), settings=settings)
+
+    def cut(self, stroke: int, point: tuple[float, float]) -> Drawing:
+        """End a stroke at its place nearest to a point, px, where another one begins; locked.
+
+        Where a corner or a junction is there already, it is decided there.
+
+        Raises:
+            InvoluteError: there is no such stroke, or it ends there anyway.
+        """
+        place = place_on(self.graph, self._stroke(stroke).branches, np.asarray(point, float))
+        if place.half < 0:
+            return self._with_graph(*cut_branch(self.graph, self.routing, place.point))
+        if self.routing.partner[place.half] == place.half:
+            raise InvoluteError("This stroke ends there already.")
+        there = self._at_vertex(int(self.graph.half_vertex[place.half]))
+        return self.reroute(there.index, [p for p in there.pairs if place.half not in p])
+
+    def join(self, a: int, b: int) -> Drawing:
+        """Make one stroke of the two that end with half-branches a and b; locked.
+
+        Both end at one junction or corner, or each of them freely; then the first goes on in a
+        straight line to where the second begins.
+
+        Raises:
+            InvoluteError: they are no two ends.
+        """
+        partner, vertex = self.routing.partner, self.graph.half_vertex
+        if not all(0 <= half < len(partner) for half in (a, b)) or a == b:
+            raise InvoluteError("To join, two different ends of strokes are needed.")
+        if partner[a] != a or partner[b] != b:
+            raise InvoluteError("Only ends can be joined; cut the stroke that goes on there first.")
+        if vertex[a] == vertex[b]:
+            there = self._at_vertex(int(vertex[a]))
+            return self.reroute(there.index, [*there.pairs, (a, b)])
+        if (self.graph.degrees[vertex[[a, b]]] != 1).any():
+            raise InvoluteError("Only ends that meet, or that hang on nothing, can be joined.")
+        return self._with_graph(*join_ends(self.graph, self.routing, a, b))
 
     def ask_again(self) -> Drawing:
-        """Route the junctions that are not locked anew, given those that are."""
-        fixed = {j.index: j.pairs for j in self.junctions if j.locked}
+        """Route the junctions and corners that are not locked anew, given those that are."""
+        fixed = {place.index: place.pairs for place in self._places if place.locked}
         routing = route(_scaled(self.graph, 1 / self.scale), self.settings, fixed)
         return replace(self._with_partner(routing.partner), routing=routing)
+
+    def restroked(self, settings: Settings) -> Drawing:
+        """The same lines and decisions with the strokes made anew.
+
+        Args:
+            settings: may differ in `STROKE_SETTINGS` only.
+        """
+        page = Page.of(self.graph, settings)
+        strokes = tuple(build(page, walk(self.routing.partner)))
+        drawing = replace(self, strokes=strokes, settings=settings)
+        vars(drawing)["_page"] = page
+        return drawing
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write the drawing; the suffix says how (.json keeps everything)."""
@@ -195,6 +293,33 @@ class Drawing:
                 raise InvoluteError(f"There is no junction {junction}; there are {len(locked)}.")
             locked[junction] = value
         return replace(self, routing=replace(self.routing, locked=locked))
+
+    def _stroke(self, number: int) -> Stroke:
+        if not 0 <= number < len(self.strokes):
+            raise InvoluteError(f"There is no stroke {number}; there are {len(self.strokes)}.")
+        return self.strokes[number]
+
+    def _at_vertex(self, vertex: int) -> Junction:
+        return self._places[int(np.flatnonzero(self.graph.places == vertex)[0])]
+
+    @property
+    def _pairs_at_corners(self) -> Array:
+        """(C, 2) int32: the two half-branches of each corner."""
+        return self.routing.pairs[len(self.routing.pairs) - len(self.graph.corners) :]
+
+    def _with_graph(self, graph: PlanarGraph, routing: Routing) -> Drawing:
+        """A drawing whose graph has one corner more, the last one, which is locked as it is. Old
+        branches keep their numbers, and strokes that have none of the changed ones stay."""
+        halves = graph.halves_of(graph.corners[-1])
+        changed = {int(half) >> 1 for half in halves}
+        page = Page.of(graph, self.settings)
+        gone = [s for s in self.strokes if not changed.isdisjoint((s.branches >> 1).tolist())]
+        branches = changed.union(*((s.branches >> 1).tolist() for s in gone))
+        left = {id(s) for s in gone}
+        kept = [s for s in self.strokes if id(s) not in left]
+        made = build(page, walk(routing.partner, branches))
+        strokes = sorted([*kept, *made], key=lambda s: int(s.branches.min()) >> 1)
+        return replace(self, graph=graph, routing=routing, strokes=tuple(strokes), page=page)
 
     def _with_partner(self, partner: Array) -> Drawing:
         """Walk anew what the changed half-branches belong to; keep all other strokes."""

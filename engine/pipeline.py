@@ -14,15 +14,20 @@ from time import perf_counter
 import numpy as np
 
 from .centerline import provider_for
+from .centerline.mending import mended
 from .drawing import Drawing
 from .errors import Cancelled
 from .fills.solids import split_solids
-from .graph import build_graph, measure, sweep, trim, without_pencil
+from .graph import Evidence, routed, run_passes
+from .graph.passes import ROUTED
 from .ink.unmixing import without_inks
 from .routing import route
 from .scan import read_scan
 from .scan.registration import set_aside
+from .scan.screentone import without_screentone
+from .scan.wide_lines import find_wide_lines
 from .settings import Settings
+from .wide_pens import look_again
 
 Progress = Callable[[str, float], None]
 Source = str | PathLike[str] | np.ndarray
@@ -34,7 +39,8 @@ _SHARES = {
     "centerline": 0.55,
     "graph": 0.1,
     "routing": 0.1,
-    "strokes": 0.1,
+    "strokes": 0.08,
+    "check": 0.02,
 }
 
 
@@ -65,24 +71,27 @@ def vectorize(
     clock = _Clock(progress)
     with clock("scan"):
         scan = set_aside(read_scan(source, settings, page=page), settings)
-        scan = without_inks(scan, settings)
+        scan = without_screentone(without_inks(scan, settings), settings)
     with clock("solids"):
-        lines, fills = split_solids(scan, settings)
+        wide = find_wide_lines(scan, settings)
+        lines, fills = split_solids(scan, settings, wide.near if wide.any else None)
     with clock("centerline") as tick:
-        maps = provider_for(settings)(lines, tick)
+        look = provider_for(settings)
+        maps = look(lines, tick)
+        if wide.any:
+            maps = look_again(maps, lines, wide, look, settings)
+        if settings.provider in ("auto", "network") and maps.half_width is not None:
+            maps = mended(maps, lines, wide.near if wide.any else None)
     with clock("graph"):
-        graph = measure(build_graph(maps, lines.pen_width, settings), lines, maps)
-        if "gray" in settings.ignore_inks:
-            graph = measure(without_pencil(graph), lines, maps)
-        graph = sweep(graph, settings)
+        evidence = Evidence.of(lines, maps)
+        graph = run_passes(evidence, settings, until=ROUTED)
     with clock("routing"):
-        routing = route(graph, settings)
-        trimmed = trim(graph, routing.partner, settings)
-        if trimmed is not graph:
-            graph = measure(trimmed, lines, maps)
-            routing = route(graph, settings)
+        graph, routing = routed(graph, evidence, settings, route)
+        del evidence
     with clock("strokes"):
         drawing = Drawing.from_routing(graph, routing, scan, settings, fills)
+    with clock("check"):
+        drawing = drawing.compared_with(scan)
     return drawing.with_seconds(clock.seconds)
 
 

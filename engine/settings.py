@@ -132,6 +132,31 @@ class Settings:
         tip="Turn areas of solid ink into fills instead of tracing them as lines",
         off="trace solid black areas as lines too, instead of making them fills",
     )
+    solid_width: float = _number(
+        0.0,
+        0.0,
+        1000.0,
+        soft_high=100.0,
+        unit="px",
+        group=WHAT,
+        label="Solid Width",
+        tip="Lines wider than this, in pixels of the picture, are solid areas; 0 finds out from "
+        "the pen",
+    )
+    sheet: bool = _switch(
+        True,
+        group=WHAT,
+        label="Leave Out Surroundings",
+        tip="Don't trace what lies beyond the sheet in a photograph: cloth, a desk, a finger",
+        off="trace what lies beyond the sheet in a photograph too",
+    )
+    screentone: bool = _switch(
+        True,
+        group=WHAT,
+        label="Leave Out Screentone",
+        tip="Don't trace areas of evenly set dots, such as the tones of a comic",
+        off="trace every dot of a screentone",
+    )
     marks: bool = _switch(
         True,
         group=WHAT,
@@ -158,6 +183,14 @@ class Settings:
         tip="Drop lone strokes shorter than this many pen widths",
         more="Strokes that hang on other lines are dropped up to twice that length",
     )
+    dots: bool = _switch(
+        True,
+        group=CLEAN,
+        label="Keep Dots",
+        tip="Keep dots of full ink about as wide as the pen, which are no specks",
+        off="drop small dots as specks",
+        more="Dots wider than three quarters of *Specks* times the pen",
+    )
     smoothing: float = _number(
         0.3,
         0.0,
@@ -167,6 +200,16 @@ class Settings:
         label="Smoothing",
         tip="0 keeps every wobble of the hand, 1 is very smooth",
         more="Corners stay",
+    )
+    corners: float = _number(
+        0.0,
+        -1.0,
+        1.0,
+        group=CLEAN,
+        label="Pen Lifts",
+        tip="Where strokes end though only two lines meet: 0 where it looks as if the pen was "
+        "lifted, -1 nowhere, 1 wherever it may have been",
+        more="See [corners](junctions.md#corners)",
     )
     provider: str = _one_of(
         ("auto", "Automatic", "The trained network when it is there, else the ridge filter"),
@@ -193,6 +236,30 @@ class Settings:
         label="Device",
         tip="Where the networks run",
         more="The processor does well",
+    )
+    opacity: str = _one_of(
+        ("auto", "Automatic", "Solid for ink, as drawn for pencil"),
+        ("solid", "Solid", "Every stroke is opaque"),
+        ("drawn", "As Drawn", "As strong as the line on the paper"),
+        group=POINTS,
+        label="Opacity",
+        tip="How opaque the strokes are",
+        more="One value for a stroke, unless the line really fades along it",
+    )
+    width_scale: float = _number(
+        1.0,
+        0.05,
+        20.0,
+        soft_high=3.0,
+        group=POINTS,
+        label="Width Scale",
+        tip="Make the strokes this many times as wide as the lines on the paper",
+    )
+    even_width: bool = _switch(
+        False,
+        group=POINTS,
+        label="Even Width",
+        tip="Give each stroke one width all along, that of its line on average",
     )
     curve: str = _one_of(
         ("polyline", "Points", "Plain points, for sculpting and drawing over"),

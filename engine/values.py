@@ -9,10 +9,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-Array = np.ndarray
+Array = NDArray[Any]
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,6 +27,8 @@ class Scan:
     size: (width, height) of the input in its own pixels.
     pen_width: typical width of a line, in working pixels.
     aligned: False when it was to be aligned to other pages and has nothing to align by.
+    light: whether it was taken, by itself, for light lines on a dark ground.
+    notes: what was left out of it, a sentence each.
     """
 
     ink: Array
@@ -33,6 +37,8 @@ class Scan:
     size: tuple[int, int]
     pen_width: float
     aligned: bool = True
+    light: bool = False
+    notes: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,8 +73,8 @@ class LineMaps:
 class PlanarGraph:
     """A planar straight-line graph: one vertex per junction, one polyline per branch.
 
-    vertices: (V, 2) float32, px. Degree 1 = endpoint, >= 3 = junction; degree 2 only for closed
-        loops that pass no junction (both ends of one branch).
+    vertices: (V, 2) float32, px. Degree 1 = endpoint, >= 3 = junction, 2 = corner: a place where
+        the pen may have been lifted, or where a closed loop begins (both ends of one branch).
     points: (P, 2) float32, px; the polylines of all branches one after the other. The first and
         last point of a branch ARE its end vertices.
     offsets: (B + 1,) int32; branch b is points[offsets[b]:offsets[b + 1]], at least 2 points.
@@ -76,6 +82,8 @@ class PlanarGraph:
     widths: (P,) float32 full line width in px, or None before it was measured.
     strength: (P,) float32 darkness of the ink in [0, 1], or None.
     colors: (P, 3) uint8 sRGB of the ink, or None.
+    clues: (C, K) float32 what the picture says about a lift at each corner (`graph.lifts`), in
+        order of `corners`; or None.
 
     Half-branches: 2 * b starts at ends[b, 0], 2 * b + 1 at ends[b, 1]; h ^ 1 is the counterpart.
     """
@@ -87,6 +95,7 @@ class PlanarGraph:
     widths: Array | None = None
     strength: Array | None = None
     colors: Array | None = None
+    clues: Array | None = None
 
     @staticmethod
     def empty() -> PlanarGraph:
@@ -133,6 +142,16 @@ class PlanarGraph:
         """(J,) int32: vertex ids of degree >= 3, ascending; a junction's number indexes this."""
         return np.flatnonzero(self.degrees >= 3).astype(np.int32)
 
+    @cached_property
+    def corners(self) -> Array:
+        """(C,) int32: vertex ids of degree 2, ascending: where the pen may have been lifted."""
+        return np.flatnonzero(self.degrees == 2).astype(np.int32)
+
+    @cached_property
+    def places(self) -> Array:
+        """(J + C,) int32: the vertices at which routing decides, junctions first, then corners."""
+        return np.concatenate([self.junctions, self.corners])
+
     def halves_of(self, vertex: int) -> Array:
         """The half-branches that start at a vertex, ascending."""
         order, starts = self.halves_at
@@ -155,12 +174,12 @@ class Routing:
     """Which half-branches continue in which: an involution.
 
     partner: (2B,) int32; partner[partner[h]] == h; partner[h] == h ends the stroke at h's vertex.
-        Partners always start at the same vertex. The two halves of a loop branch without a
-        junction (a circle) are partners of each other.
-    pairs: (K, 2) int32 candidate pairs (a < b, same junction), and
+        Partners always start at the same vertex.
+    pairs: (K, 2) int32 candidate pairs (a < b, same junction or corner), and
     pair_score: (K,) float32 log-odds of joining a pair against ending both.
-    alternatives: for each junction (graph.junctions order) the ranked ways to route it.
-    locked: (J,) bool; junctions that the user has fixed.
+    alternatives: for each junction and each corner (graph.places order) the ranked ways to route
+        it.
+    locked: (J + C,) bool; junctions and corners that the user has fixed.
     """
 
     partner: Array
@@ -194,7 +213,8 @@ class Stroke:
 
 @dataclass(frozen=True)
 class Junction:
-    """A junction as the user sees it; position in input pixels."""
+    """A junction, or a corner (of two half-branches), as the user sees it; position in input
+    pixels; index into graph.places."""
 
     index: int
     position: tuple[float, float]

@@ -18,6 +18,7 @@ _VERBS = (
     "tracing.trace",
     "tracing.import_scan",
     "tracing.use_defaults",
+    "tracing.use_preset",
     "sequences.trace_frames",
     "junctions.reroute",
     "junctions.join",
@@ -28,6 +29,7 @@ _VERBS = (
     "junctions.go_to_junction",
     "junctions.preview",
     "junctions.choose",
+    "junctions.review",
     "junctions.drag_join",
 )
 
@@ -46,7 +48,8 @@ def register() -> None:
     import bpy
 
     from . import blender_command
-    from .tracing import trace_settings
+    from .grease_pencil import saving
+    from .tracing import background, trace_settings, use_defaults
     from .view import view_state
 
     for cls in _classes():
@@ -54,6 +57,9 @@ def register() -> None:
     pointer = bpy.props.PointerProperty
     bpy.types.Scene.involute = pointer(type=trace_settings.INVOLUTE_PG_trace_settings)
     bpy.types.WindowManager.involute_view = pointer(type=view_state.INVOLUTE_PG_view)
+    saving.register()
+    background.register()
+    use_defaults.register()
     blender_command.register()
 
 
@@ -62,8 +68,13 @@ def unregister() -> None:
     import bpy
 
     from . import blender_command
+    from .grease_pencil import saving
+    from .tracing import background, use_defaults
 
     blender_command.unregister()
+    use_defaults.unregister()
+    background.unregister()
+    saving.unregister()
     del bpy.types.WindowManager.involute_view
     del bpy.types.Scene.involute
     for cls in reversed(_classes()):

@@ -26,11 +26,12 @@ def write(drawings: Sequence[tuple[str, Drawing]], path: str | PathLike[str]) ->
         path: the .blend file, made or overwritten.
 
     Raises:
-        InvoluteError: Blender's Python module is not installed, or the file can't be written.
+        InvoluteError: Blender's Python module can't be loaded, or the file can't be written.
     """
     scene = _empty_scene()
     for name, drawing in drawings:
-        _put(_object(scene, name, drawing), scene.frame_current, drawing, name)
+        title = _as_text(name)
+        _put(_object(scene, title, drawing), scene.frame_current, drawing, title)
     _save(path)
 
 
@@ -47,7 +48,7 @@ def write_sequence(
     Raises:
         InvoluteError: as for `write`; or there is no frame at all.
     """
-    scene = _empty_scene()
+    scene, name = _empty_scene(), _as_text(name)
     obj = None
     for frame, drawing in frames:
         if obj is None:
@@ -65,14 +66,12 @@ def write_sequence(
 def _empty_scene() -> bpy.types.Scene:
     """A fresh scene; preferences stay: this may run inside Blender, with the extension enabled."""
     from ..engine import InvoluteError
+    from . import system_libraries
 
     try:
         import bpy
     except ImportError as error:
-        raise InvoluteError(
-            "Writing .blend files needs Blender: install the extra 'blender', or run "
-            "blender -b --command involute."
-        ) from error
+        raise InvoluteError(system_libraries.cannot_load(error)) from error
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True, load_ui=False)
     return bpy.context.scene
 
@@ -106,12 +105,18 @@ def _put(
     writing.write(obj.data, frame, drawing, pixel_map, key, alone=alone)
 
 
+def _as_text(name: str) -> str:
+    """A file's name as Blender takes names: what is not text becomes a question mark."""
+    return os.fsencode(name).decode("utf-8", "replace")
+
+
 def _save(path: str | PathLike[str]) -> None:
     import bpy
 
     from ..engine import InvoluteError
 
     target = Path(fspath(path)).absolute()
+    target.unlink(missing_ok=True)  # of a file that is there Blender would keep a copy beside it
     try:
         with _quiet():
             bpy.ops.wm.save_as_mainfile(
@@ -126,7 +131,8 @@ def _save(path: str | PathLike[str]) -> None:
 @contextmanager
 def _quiet() -> Iterator[None]:
     """Keep Blender's own "Saved copy as" off the terminal: it names the temporary file."""
-    sys.stdout.flush()
+    if sys.stdout is not None:
+        sys.stdout.flush()
     kept = os.dup(1)
     with open(os.devnull, "wb") as nowhere:
         os.dup2(nowhere.fileno(), 1)
@@ -165,6 +171,7 @@ def _reason(error: RuntimeError) -> str:
 BLEND = Format(
     suffix=".blend",
     about="Grease Pencil strokes in a Blender file; holds many drawings, and sequences",
+    endings=(b"\xb1\xea\x92\x8f", b"ENDB"),  # compressed (a table of Zstandard frames), or not
     write_many=write,
     write_sequence=write_sequence,
 )

@@ -60,3 +60,11 @@ def unexpected(problem: Exception) -> str:
 
 current: Job | None = None
 """The trace that runs now, for the sidebar; there is at most one."""
+
+
+def abandon() -> None:
+    """Whoever waited for the job is gone: let it stop by itself, and the next one begin."""
+    global current
+    if current is not None:
+        current.cancel()
+        current = None

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from involute.engine.arrays.ragged import along, arc
 from scipy.spatial import Delaunay
 
 from .library import BOX, DrawingSet, read_sets
@@ -121,13 +122,13 @@ def loosened(rng: np.random.Generator, page: list[Array]) -> list[Array]:
 
 def _with_ends(line: Array, head: float, tail: float) -> Array:
     """Lengthen (or shorten, when negative) a polyline at both ends, px; closed ones stay."""
-    arc = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(line, axis=0).T))])
-    if arc[-1] < 25 or np.hypot(*(line[0] - line[-1])) < 3:
+    way = arc(line)
+    if way[-1] < 25 or np.hypot(*(line[0] - line[-1])) < 3:
         return line
-    low, high = max(0.0, -head), arc[-1] - max(0.0, -tail)
-    inside = (arc > low) & (arc < high)
-    tips = [np.array([np.interp(s, arc, line[:, c]) for c in (0, 1)]) for s in (low, high)]
-    line = np.vstack([tips[0], line[inside], tips[1]])
+    low, high = max(0.0, -head), way[-1] - max(0.0, -tail)
+    inside = (way > low) & (way < high)
+    tips = along(line, np.array([low, high]))
+    line = np.vstack([tips[:1], line[inside], tips[1:]])
     step = np.hypot(*np.diff(line, axis=0).T)
     line = line[np.concatenate([[True], step > 1e-6])]
     if len(line) < 2:

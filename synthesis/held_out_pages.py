@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import argparse
 import json
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -19,6 +19,7 @@ import numpy as np
 
 from .composed_pages import SOURCES, Library
 from .media import DIGITAL, MEDIA, NUDGE, draw, line_spacing, sample
+from .pen_lifts import KINDS, Habit, lifted
 from .pencilling import Hand, pencilled
 from .sheet_of_paper import paper, scan, shadow
 from .true_graph import single_lines
@@ -46,16 +47,24 @@ def main() -> None:
     parser.add_argument("--pages", type=int, default=48)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--only", nargs="+", choices=list(SOURCES), help="these sets alone")
-    parser.add_argument("--kind", default="paper", choices=list(_KINDS))
+    parser.add_argument("--look", default="paper", choices=list(_LOOKS), help="how it is drawn")
+    parser.add_argument(
+        "--habit", default="as drawn", choices=KINDS, help="where the pen is lifted"
+    )
+    parser.add_argument("--each", action="store_true", help="every drawing once, the richest first")
     args = parser.parse_args()
     args.out.mkdir(parents=True, exist_ok=True)
     rng = np.random.default_rng(args.seed)
     library = Library.load(args.data, held_out=True)
+    names = args.only or [name for name in _SOURCES if name in library.sources]
+    drawings = _richest(library, names) if args.each else endless(rng, library, args.only)
     manifest = []
-    for number in range(args.pages):
-        name, strokes = f"page_{number:03d}", _drawing(rng, library, args.only)
-        image, style = _KINDS[args.kind](rng, strokes, number)
-        if args.kind == "one bit":  # JPEG would bring grey in
+    for number, strokes in zip(range(args.pages), drawings, strict=False):
+        name = f"page_{number:03d}"
+        pen = float(rng.uniform(*list(_PENS.values())[number % len(_PENS)]))
+        strokes = lifted(rng, strokes, Habit.drawn(rng, pen, args.habit))
+        image, style = _LOOKS[args.look](rng, strokes, number, pen)
+        if args.look == "one bit":  # JPEG would bring grey in
             cv2.imwrite(str(args.out / f"{name}.png"), image)
         else:
             cv2.imwrite(str(args.out / f"{name}.jpg"), image, [cv2.IMWRITE_JPEG_QUALITY, 88])
@@ -64,9 +73,9 @@ def main() -> None:
     (args.out / "manifest.json").write_text(json.dumps(manifest, indent=1), "utf-8")
 
 
-def _drawing(
+def endless(
     rng: np.random.Generator, library: Library, only: Sequence[str] | None = None
-) -> list[Array]:
+) -> Iterator[list[Array]]:
     """True strokes that fill a page: one drawing, or several over each other."""
     names = [name for name in only or _SOURCES if name in library.sources]
     weight = np.array([_SOURCES.get(name, 1) for name in names], float)
@@ -75,33 +84,56 @@ def _drawing(
             strokes = library.page(rng)
         else:
             strokes = library.pick(rng, str(rng.choice(names, p=weight / weight.sum())))
-        low = np.min([line.min(0) for line in strokes], 0)
-        size = float((np.max([line.max(0) for line in strokes], 0) - low).max())
-        scale = (_SIDE - 2 * _MARGIN) / max(size, 1e-6)
-        strokes = single_lines([(line - low) * scale + _MARGIN for line in strokes])
+        strokes = _filling(strokes)
         if _FEWEST <= len(strokes) <= _MOST:
-            return strokes
+            yield strokes
 
 
-def _on_paper(rng: np.random.Generator, strokes: list[Array], number: int) -> tuple[Array, str]:
-    """The page as a scanner sees it, (H, W) uint8, and its medium and paper."""
+def _richest(library: Library, names: Sequence[str]) -> Iterator[list[Array]]:
+    """Every held-out drawing of some sets, those with the longest lines first."""
+    sets = [library.sources[name] for name in names]
+    drawings = [drawn.strokes(int(k)) for drawn in sets for k in drawn.part(library.held_out)]
+    filling = [_filling([line for line in strokes if len(line) > 1]) for strokes in drawings]
+    yield from sorted(filling, key=_length, reverse=True)
+
+
+def _filling(strokes: list[Array]) -> list[Array]:
+    """A drawing at the size of a page, each of its lines once."""
+    low = np.min([line.min(0) for line in strokes], 0)
+    size = float((np.max([line.max(0) for line in strokes], 0) - low).max())
+    scale = (_SIDE - 2 * _MARGIN) / max(size, 1e-6)
+    return single_lines([(line - low) * scale + _MARGIN for line in strokes])
+
+
+def _length(strokes: list[Array]) -> float:
+    return float(sum(np.hypot(*np.diff(line, axis=0).T).sum() for line in strokes))
+
+
+def _on_paper(
+    rng: np.random.Generator, strokes: list[Array], number: int, pen: float
+) -> tuple[Array, str]:
+    """The page as a scanner sees it, (H, W) uint8, and its medium and paper; pen: its width, px."""
     medium = list(_PENS)[number % len(_PENS)]
     samples = sample([line.astype(np.float32) for line in strokes], _SIDE)
-    pen = min(float(rng.uniform(*_PENS[medium])), 0.8 * line_spacing(samples, _SIDE))
+    pen = min(pen, 0.8 * line_spacing(samples, _SIDE))
     ink, _ = draw(rng, samples, MEDIA[medium], pen, _SIDE)
     page, sheet = _scanned(rng, ink)
     return _cropped(page, strokes), f"{medium}, {sheet}"
 
 
-def _one_bit(rng: np.random.Generator, strokes: list[Array], number: int) -> tuple[Array, str]:
+def _one_bit(
+    rng: np.random.Generator, strokes: list[Array], number: int, pen: float
+) -> tuple[Array, str]:
     """Lines of 1, 2, 3 or 4 px in turn without any grey, as a drawing program makes them."""
-    pen = 1 + number % 4
+    pen = 1.0 + number % 4
     samples = sample([line.astype(np.float32) + NUDGE for line in strokes], _SIDE)
     ink, _ = draw(rng, samples, DIGITAL["one bit"], pen, _SIDE)
-    return _cropped(1 - ink, strokes), f"one bit {pen} px, white"
+    return _cropped(1 - ink, strokes), f"one bit {pen:.0f} px, white"
 
 
-def _sketched(rng: np.random.Generator, strokes: list[Array], number: int) -> tuple[Array, str]:
+def _sketched(
+    rng: np.random.Generator, strokes: list[Array], number: int, pen: float
+) -> tuple[Array, str]:
     """Every line said by about 2, 4 or 7 pencil strokes in turn; the truth is the line."""
     medium = list(_ROUGH_PENS)[number % len(_ROUGH_PENS)]
     each = (2, 4, 7)[number % 3]
@@ -120,7 +152,7 @@ def _sketched(rng: np.random.Generator, strokes: list[Array], number: int) -> tu
     return _cropped(page, strokes), f"{medium}, {each} strokes a line, {sheet}"
 
 
-_KINDS = {"paper": _on_paper, "one bit": _one_bit, "rough": _sketched}
+_LOOKS = {"paper": _on_paper, "one bit": _one_bit, "rough": _sketched}
 
 
 def _scanned(rng: np.random.Generator, ink: Array) -> tuple[Array, str]:

@@ -3,7 +3,7 @@
 A set is SET.npz (points, stroke_offsets, drawing_offsets, scale) beside SET.json (names and where
 it comes from). Which side a drawing is on follows from its name alone: it is the same for every
 training, every held-out page and every limit, and stays when sets are added. Variants of one
-drawing ("smiley 1", "smiley 2") are one family and always on one side.
+drawing ("smiley 1", "smiley 2") are one family and always on one side; so are copies by any name.
 """
 
 from __future__ import annotations
@@ -76,7 +76,16 @@ class DrawingSet:
 
     @cached_property
     def held_out(self) -> Array:
-        return np.array([is_held_out(self.name, title) for title in self.titles])
+        """Which side each drawing is on: by its name, but copies of one that is trained on are
+        trained on, too, whatever they are called."""
+        named = np.array([is_held_out(self.name, title) for title in self.titles])
+        contents = np.array([self._content(number) for number in range(len(self))])
+        return named & ~np.isin(contents, contents[~named])
+
+    def _content(self, number: int) -> bytes:
+        """What tells one drawing from another: the digest of its points."""
+        first, last = self.stroke_offsets[self.drawing_offsets[number : number + 2]]
+        return sha256(self.points[first:last].tobytes()).digest()
 
     def part(self, held_out: bool) -> Array:
         """The numbers of the drawings on one side of the split."""

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from involute.engine.arrays.ragged import count_up
 
 from .library import DrawingSet, read_sets
 
@@ -113,7 +114,7 @@ def resample(stroke: Array, step: float) -> Array:
     length = np.hypot(*np.diff(stroke, axis=0).T)
     pieces = np.maximum(1, np.ceil(length / step)).astype(int)
     start = np.repeat(np.arange(len(length)), pieces)
-    within = np.arange(len(start)) - np.repeat(np.cumsum(pieces) - pieces, pieces)
+    within = count_up(pieces)
     t = (within / pieces[start])[:, None]
     inner = stroke[start] * (1 - t) + stroke[start + 1] * t
     return np.concatenate([inner, stroke[-1:]]).astype(np.float32)

@@ -13,6 +13,7 @@ from itertools import pairwise
 
 import cv2
 import numpy as np
+from involute.engine.arrays.ragged import count_up
 
 from .line_art import Array, Rng, Strokes
 
@@ -71,7 +72,7 @@ def sample(strokes: Strokes, size: int) -> Samples:
     start, length = arc[last - sizes + 1], arc[last] - arc[last - sizes + 1]
     count = np.maximum(2, np.ceil(length / STEP).astype(int) + 1)
     stroke = np.repeat(np.arange(len(strokes)), count)
-    k = np.arange(len(stroke)) - np.repeat(np.cumsum(count) - count, count)
+    k = count_up(count)
     local = k / (count[stroke] - 1) * length[stroke]
     at = start[stroke] + local
     position = np.stack([np.interp(at, arc, packed[:, 0]), np.interp(at, arc, packed[:, 1])], 1)

@@ -10,6 +10,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from involute.engine.arrays.ragged import along as along_line
+from involute.engine.arrays.ragged import arc as arc_length
+from involute.engine.arrays.ragged import count_up, offsets_of
 from involute.engine.values import PlanarGraph
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
@@ -83,7 +86,7 @@ class _Ink:
 
     def __init__(self, lines: list[Array], touch: float) -> None:
         dense = [_densify(line) for line in lines]
-        arcs = [_arc(line) for line in dense]
+        arcs = [arc_length(line) for line in dense]
         self.points = np.concatenate(dense)
         self.stroke = np.repeat(np.arange(len(dense)), [len(d) for d in dense])
         self.length = np.array([a[-1] for a in arcs])
@@ -113,16 +116,11 @@ def _clean(strokes: Sequence[Array]) -> tuple[list[Array], list[int]]:
     return lines, source
 
 
-def _arc(line: Array) -> Array:
-    return np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(line, axis=0).T))])
-
-
 def _densify(line: Array) -> Array:
     """The same polyline with points added so that no segment is longer than `_STEP`."""
     size = np.hypot(*np.diff(line, axis=0).T)
     parts = np.maximum(1, np.ceil(size / _STEP)).astype(int)
-    start = np.repeat(np.cumsum(parts) - parts, parts)
-    share = (np.arange(parts.sum()) - start) / np.repeat(parts, parts)
+    share = count_up(parts) / np.repeat(parts, parts)
     first = np.repeat(np.arange(len(parts)), parts)
     inner = line[first] + share[:, None] * (line[first + 1] - line[first])
     return np.vstack([inner, line[-1:]])
@@ -132,15 +130,10 @@ def _drop_doubled(
     lines: list[Array], source: list[int], radius: float
 ) -> tuple[list[Array], list[int]]:
     """Cut away what runs along a longer stroke (or along an earlier part of the same one)."""
-    arcs = [_arc(line) for line in lines]
+    arcs = [arc_length(line) for line in lines]
     length = np.array([a[-1] for a in arcs])
     at = [np.linspace(0, a[-1], max(2, round(a[-1]) + 1)) for a in arcs]
-    sample = np.concatenate(
-        [
-            np.c_[np.interp(t, a, line[:, 0]), np.interp(t, a, line[:, 1])]
-            for t, a, line in zip(at, arcs, lines, strict=True)
-        ]
-    )
+    sample = np.concatenate([along_line(line, t) for t, line in zip(at, lines, strict=True)])
     owner = np.repeat(np.arange(len(lines)), [len(t) for t in at])
     arc = np.concatenate(at)
     before = np.maximum(np.arange(len(arc)) - 1, np.searchsorted(owner, owner))
@@ -165,10 +158,8 @@ def _drop_doubled(
         mine = slice(*np.searchsorted(owner, [k, k + 1]))
         for low, high in _stretches_left(twice[mine], arc[mine]):
             inside = (arcs[k] > low) & (arcs[k] < high)
-            tips = [
-                np.array([np.interp(t, arcs[k], line[:, c]) for c in (0, 1)]) for t in (low, high)
-            ]
-            kept.append(np.vstack([tips[0], line[inside], tips[1]]))
+            tips = along_line(line, np.array([low, high]))
+            kept.append(np.vstack([tips[:1], line[inside], tips[1:]]))
             kept_source.append(source[k])
     return kept, kept_source
 
@@ -415,7 +406,7 @@ def dissolve(
     graph = PlanarGraph(
         position[used_vertices].astype(np.float32),
         np.concatenate(points).astype(np.float32),
-        np.concatenate([[0], np.cumsum([len(p) for p in points])]).astype(np.int32),
+        offsets_of([len(p) for p in points]).astype(np.int32),
         new_ends.astype(np.int32),
     )
     return graph, np.concatenate(source), new_partner.astype(np.int32)

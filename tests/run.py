@@ -1,19 +1,20 @@
 """All tests, each in the environments that it is for: the README's test command.
 
-    uv run --extra blender --extra test --extra bench python tests/run.py [NAME ...]
+    python3 bootstrap.py --extra test --extra bench python tests/run.py [NAME ...] [--seed N]
 
-    main    this environment: ruff, then every test; the Blender ones against the built extension
+    main    this environment: ruff, mypy, every test; the Blender ones against the built extension
     4.5     bpy 4.5 on Python 3.11: the same extension
     5.2     bpy 5.2 on Python 3.13: the same extension
     torch   training tests, in an environment made by plain pip from training/requirements.txt
 
-The environments are made when missing, in .venv-NAME. Standard library only.
+The environments are made when missing, in .venv-NAME.
 """
 
 from __future__ import annotations
 
 import argparse
 import os
+import secrets
 import shutil
 import subprocess
 import sys
@@ -22,10 +23,11 @@ from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 
+from involute.operators import system_libraries
+
 ROOT = Path(__file__).resolve().parents[1]
 PYTEST = "pytest==9.2.0"
 HYPOTHESIS = "hypothesis==6.170.15"
-SEED = "--hypothesis-seed=0"  # what fails here fails again; plain pytest goes on searching
 
 
 def main(argv: list[str] | None = None) -> int:
@@ -33,29 +35,48 @@ def main(argv: list[str] | None = None) -> int:
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("names", nargs="*", metavar="NAME", help="default: " + " ".join(RUNS))
-    names = parser.parse_args(argv).names or list(RUNS)
+    parser.add_argument("--seed", type=int, help="of the property tests; else a new one")
+    options = parser.parse_args(argv)
+    names = options.names or list(RUNS)
     if unknown := set(names) - set(RUNS):
         parser.error(f"unknown: {', '.join(sorted(unknown))}; choose from {', '.join(RUNS)}")
+    if libraries := system_libraries.missing():
+        raise SystemExit(system_libraries.lacks(libraries))
+    seed = secrets.randbits(32) if options.seed is None else options.seed
+    told = f"property tests: --seed {seed} repeats this run"
+    print(told)
     outcomes = {}
     for name in names:
         print(f"\n==== {name} ====", flush=True)
         start = time.monotonic()
-        passed, closing = RUNS[name]()
+        passed, closing = RUNS[name](seed)
         minutes = (time.monotonic() - start) / 60
         outcomes[name] = passed, f"{name}: {closing} ({minutes:.1f} min in all)"
-    print("\n==== summary ====")
+    print(f"\n==== summary ==== ({told})")
     for passed, line in outcomes.values():
         print("ok    " if passed else "FAILED", line)
     return 0 if all(passed for passed, _ in outcomes.values()) else 1
 
 
-def in_this_environment() -> tuple[bool, str]:
-    checks = (["check", "."], ["format", "--check", "."])
-    untidy = [c[0] for c in checks if _call([sys.executable, "-m", "ruff", *c])]
-    passed, closing = _pytest(Path(sys.executable), "tests", SEED, INVOLUTE_ZIP=_extension())
+def in_this_environment(seed: int) -> tuple[bool, str]:
+    _as_package()
+    checks = ["ruff", "check", "."], ["ruff", "format", "--check", "."]
+    untidy = [" ".join(c[:2]) for c in checks if _call([sys.executable, "-m", *c])]
+    passed, closing = _pytest(
+        Path(sys.executable), "tests", _seeded(seed), INVOLUTE_ZIP=_extension()
+    )
     if untidy:
-        return False, f"ruff {' and '.join(untidy)} failed; {closing}"
+        return False, f"{' and '.join(untidy)} failed; {closing}"
     return passed, closing
+
+
+def _as_package() -> None:
+    """The repository under the name that it is imported by, for mypy: build/types/involute."""
+    link = ROOT / "build" / "types" / "involute"
+    link.parent.mkdir(parents=True, exist_ok=True)
+    if not link.exists():
+        link.unlink(missing_ok=True)
+        link.symlink_to(ROOT, target_is_directory=True)
 
 
 def in_blender(version: str, bpy: str, python: str) -> tuple[bool, str]:
@@ -70,7 +91,7 @@ def in_blender(version: str, bpy: str, python: str) -> tuple[bool, str]:
     return _pytest(_python(home), "tests/blender", INVOLUTE_ZIP=_extension())
 
 
-def in_torch() -> tuple[bool, str]:
+def in_torch(seed: int) -> tuple[bool, str]:
     home = ROOT / ".venv-torch"
     requirements = ROOT / "training" / "requirements.txt"
 
@@ -83,13 +104,13 @@ def in_torch() -> tuple[bool, str]:
         _check([*pip, "--requirement", str(requirements), "--editable", str(ROOT)])
 
     _once(home, requirements.read_text("utf-8"), make)
-    return _pytest(_python(home), "tests/training", SEED)
+    return _pytest(_python(home), "tests/training", _seeded(seed))
 
 
-RUNS: dict[str, Callable[[], tuple[bool, str]]] = {
+RUNS: dict[str, Callable[[int], tuple[bool, str]]] = {
     "main": in_this_environment,
-    "4.5": lambda: in_blender("4.5", "4.5.15", "3.11"),
-    "5.2": lambda: in_blender("5.2", "5.2.3", "3.13"),
+    "4.5": lambda seed: in_blender("4.5", "4.5.15", "3.11"),
+    "5.2": lambda seed: in_blender("5.2", "5.2.3", "3.13"),
     "torch": in_torch,
 }
 
@@ -145,8 +166,12 @@ def _interpreter(version: str) -> str:
     return version
 
 
+def _seeded(seed: int) -> str:
+    return f"--hypothesis-seed={seed}"
+
+
 def _uv() -> list[str]:
-    found = os.environ.get("UV") or shutil.which("uv")
+    found = os.environ.get("UV") or shutil.which("uv")  # uv tells those that it runs
     return [found] if found else [sys.executable, "-m", "uv"]
 
 

@@ -1,43 +1,44 @@
 """Note what the shipped weights contain: `python -m training.digests`, after any of them changed.
 
-The engine checks weights against these digests when it loads them. Standard library only.
+The engine checks weights against these digests when it loads them. Weights that no exporter wrote
+lose their lineage (`lineage.json`). Standard library only.
 """
 
 from __future__ import annotations
 
 import argparse
-import hashlib
 import json
+from collections.abc import Sequence
 from pathlib import Path
 
 from involute.engine import weights
 
+from . import lineage
 
-def main() -> None:
+
+def main(argv: Sequence[str] | None = None) -> None:
     """The command line."""
-    argparse.ArgumentParser(prog="digests", description=__doc__.splitlines()[0]).parse_args()
+    parser = argparse.ArgumentParser(prog="digests", description=__doc__.splitlines()[0])
+    parser.parse_args(argv)
     for name, digest in write(weights.FOLDER).items():
         print(digest, name)
 
 
 def write(folder: Path) -> dict[str, str]:
     """Write the digests of all weights in a folder, and return them by file name."""
-    found = {name: of(folder / name) for name in weights.names(folder)}
+    found = {name: lineage.sha256(folder / name) for name in weights.names(folder)}
+    lineage.write(folder, lineage.checked(folder))
     (folder / weights.DIGESTS).write_text(json.dumps(found, indent=1) + "\n", "utf-8")
     return found
 
 
-def of(path: Path) -> str:
-    """The SHA-256 of a file's content, in hexadecimal digits."""
-    return hashlib.sha256(path.read_bytes()).hexdigest()
-
-
-def note(path: Path) -> None:
+def note(path: Path, *runs: Path) -> None:
     """Bring the digests beside a file of weights up to date, where there are any.
 
-    To be called by whoever writes weights.
+    To be called by whoever writes weights, with the folders of the runs that they are from.
     """
     if (path.parent / weights.DIGESTS).exists():
+        lineage.note_weights(path, *runs)
         write(path.parent)
 
 

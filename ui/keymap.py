@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import bpy
 
 from ..operators.junctions.go_to_junction import INVOLUTE_OT_step_junction
+from ..operators.junctions.review import INVOLUTE_OT_review
 from .panels.pie import INVOLUTE_MT_pie
 
 _MENU = "wm.call_menu_pie"
@@ -28,6 +29,8 @@ def register() -> None:
         )
         item.properties.direction = direction
         _added.append((keymap, item))
+    item = keymap.keymap_items.new(INVOLUTE_OT_review.bl_idname, "R", "PRESS", ctrl=True, alt=True)
+    _added.append((keymap, item))
 
 
 def unregister() -> None:
@@ -39,10 +42,14 @@ def unregister() -> None:
 
 def items(
     configuration: bpy.types.KeyConfig,
-) -> Iterator[tuple[bpy.types.KeyMap, bpy.types.KeyMapItem]]:
-    """Our items as the user has them."""
+) -> Iterator[tuple[bpy.types.KeyMap, bpy.types.KeyMapItem, str]]:
+    """Our items as the user has them, and what each does: two run the same operator."""
     keymap = configuration.keymaps.get("3D View")
     for item in keymap.keymap_items if keymap else ():
-        ours = item.idname == INVOLUTE_OT_step_junction.bl_idname
-        if ours or (item.idname == _MENU and item.properties.name == INVOLUTE_MT_pie.bl_idname):
-            yield keymap, item
+        if item.idname == INVOLUTE_OT_step_junction.bl_idname:
+            is_next = item.properties.direction == "NEXT"
+            yield keymap, item, "Next Junction" if is_next else "Previous Junction"
+        elif item.idname == INVOLUTE_OT_review.bl_idname:
+            yield keymap, item, "Review Junctions"
+        elif item.idname == _MENU and item.properties.name == INVOLUTE_MT_pie.bl_idname:
+            yield keymap, item, "Junctions"

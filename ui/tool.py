@@ -14,9 +14,9 @@ class _Junctions:
     bl_description = (
         "Click a junction to choose among its alternatives\n"
         "Drag from one line to another to join them\n"
-        "Alt-click a line to end it at its junction"
+        "Ctrl-click or Alt-click a line to end it at its junction"
     )
-    bl_icon = "ops.gpencil.draw.poly"
+    bl_icon = "ops.node.add_reroute"
     bl_keymap = (
         (
             INVOLUTE_OT_choose.bl_idname,
@@ -24,10 +24,14 @@ class _Junctions:
             {"properties": [("pick", True)]},
         ),
         (INVOLUTE_OT_drag_join.bl_idname, {"type": "LEFTMOUSE", "value": "CLICK_DRAG"}, None),
-        (
-            INVOLUTE_OT_separate_under_mouse.bl_idname,
-            {"type": "LEFTMOUSE", "value": "PRESS", "alt": True},
-            None,
+        # Some window managers take Alt-click for themselves.
+        *(
+            (
+                INVOLUTE_OT_separate_under_mouse.bl_idname,
+                {"type": "LEFTMOUSE", "value": "PRESS", key: True},
+                None,
+            )
+            for key in ("ctrl", "alt")
         ),
     )
 
@@ -35,6 +39,7 @@ class _Junctions:
     def draw_settings(context: bpy.types.Context, layout: bpy.types.UILayout, tool: object) -> None:
         """The switch of the overlay in the header."""
         view = context.window_manager.involute_view
+        layout.prop(view, "stroke_colors", text="Strokes", icon="COLOR", toggle=True)
         layout.prop(view, "show_overlay", text="Junctions", icon="OVERLAY", toggle=True)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import cv2
 import numpy as np
 
-Array = np.ndarray
+from ..values import Array
 
 _COLUMNS = 16384  # remap takes at most 32767 columns, so long lists are folded
 

@@ -7,12 +7,11 @@ from collections.abc import Sequence
 import cv2
 import numpy as np
 
+from ..ink.bare_paper import is_paper
 from ..values import Array, PlanarGraph, Scan
 from .faces import Region
 
 _LINE = 2.0  # line widths that are left out around the middle of a line
-_PAPER = 0.08  # how far a colour may be from the paper's, as a share of it
-_SHADE = (0.06, 0.3)  # the same for paper in shade: how far from grey, and how dark
 _BITS = 4  # of a pixel, as OpenCV draws
 
 
@@ -42,9 +41,7 @@ def region_colors(regions: Sequence[Region], graph: PlanarGraph, scan: Scan) -> 
         total = np.bincount(label[inside], value, len(regions) + 1)[1:]
         colors[:, channel] = np.where(count > 0, total / np.maximum(count, 1), paper[channel])
     colors = np.clip(colors / np.maximum(paper, 1.0), 0.0, 1.0)
-    bare = (1 - colors).max(axis=1) < _PAPER
-    bare |= (np.ptp(colors, axis=1) < _SHADE[0]) & (colors.min(axis=1) > 1 - _SHADE[1])
-    return np.where(bare[:, None], 255, np.rint(colors * 255)).astype(np.uint8)
+    return np.where(is_paper(colors)[:, None], 255, np.rint(colors * 255)).astype(np.uint8)
 
 
 def _fixed(points: Array, scan: Scan) -> Array:

@@ -20,16 +20,22 @@ Fill = tuple[Array, ...]
 """One area: its outer ring, then the rings of its holes; each (N, 2) float32, closed, px."""
 
 _WIDE, _WIDEST = (3.2, 7.0), (5.0, 10.0)  # diameters in pen widths, and at least in px
+_NARROWER = 0.7  # of the width from which on it is an area, that the rest of it has at least
 _REACH = 2.0  # widest diameters; how far an area goes on from its widest parts
 _LONG, _EVEN, _STROKE = 4.0, 0.8, 16.0  # a line is so many widths long, so even, and so wide in px
 _FRINGE = 1.5  # px; how far the soft edge of an area reaches
 _DETAIL = 0.1  # px; how far an outline may stray when points are saved
 
 
-def split_solids(scan: Scan, settings: Settings) -> tuple[Scan, list[Fill]]:
+def split_solids(
+    scan: Scan, settings: Settings, lines: Array | None = None
+) -> tuple[Scan, list[Fill]]:
     """Take the areas much wider than the pen out of a scan.
 
     What is narrower stays, also where it touches an area: such a line ends at the border.
+
+    Args:
+        lines: (H, W) bool, what is a line however wide it is.
 
     Returns:
         The scan without the areas, and the areas in working pixels.
@@ -38,18 +44,25 @@ def split_solids(scan: Scan, settings: Settings) -> tuple[Scan, list[Fill]]:
         return scan, []
     soft = cv2.GaussianBlur(scan.ink, (0, 0), 0.6)
     wide, widest = (max(px, pens * scan.pen_width) for pens, px in (_WIDE, _WIDEST))
-    area = _areas((soft > 0.5).astype(np.uint8), wide / 2, widest / 2)
+    dark = (soft > 0.5).astype(np.uint8)
+    if lines is not None:
+        dark[lines] = 0
+    longest = _STROKE
+    if settings.solid_width:  # the user knows what is an area here
+        longest = widest = max(settings.solid_width / scan.scale, 2.0)
+        wide = min(wide, _NARROWER * widest)
+    area = _areas(dark, wide / 2, widest / 2, longest)
     if not area.any():
         return scan, []
     near = _distance_to(area > 0) <= _FRINGE
     return replace(scan, ink=np.where(near, np.float32(0), scan.ink)), _outlines(area, soft)
 
 
-def _areas(dark: Array, wide: float, widest: float) -> Array:
+def _areas(dark: Array, wide: float, widest: float, stroke: float) -> Array:
     """The dark pixels that belong to areas, (H, W) uint8, 0 or 1.
 
     An area is what discs of radius `wide` can paint within the dark, around a place where even one
-    of radius `widest` fits; but a long even line stays a line.
+    of radius `widest` fits; but a long even line stays a line up to a width of `stroke`.
     """
     depth = distance.depth(dark)
     seed = depth > widest
@@ -68,7 +81,7 @@ def _areas(dark: Array, wide: float, widest: float) -> Array:
     crest = np.bincount(owner[middle], minlength=count)
     mean_depth = np.bincount(owner[middle], depth[middle], minlength=count) / np.maximum(crest, 1)
     width = 2 * deepest
-    is_line = (size > _LONG * width**2) & (mean_depth > _EVEN * deepest) & (width < _STROKE)
+    is_line = (size > _LONG * width**2) & (mean_depth > _EVEN * deepest) & (width < stroke)
     is_area = (deepest > widest) & ~is_line
     return (painted & is_area[owner]).astype(np.uint8)
 

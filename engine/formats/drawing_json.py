@@ -10,9 +10,10 @@ from __future__ import annotations
 import base64
 import binascii
 import json
+import math
 import zlib
 from collections.abc import Sequence
-from dataclasses import fields
+from dataclasses import fields, replace
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -21,12 +22,16 @@ import numpy as np
 
 from ..drawing import Drawing
 from ..errors import InvoluteError
+from ..fidelity import Fidelity
+from ..routing import with_corners
 from ..settings import Settings
+from ..soundness import UnsoundError, check_drawing, check_graph
 from ..values import Alternative, Array, PlanarGraph, Routing, Stroke
 from .whole_file import write_text
 
 FORMAT, VERSION = "involute drawing", 1
 _DTYPES = ("float32", "int32", "uint8", "bool")
+_MOST_BYTES = 2**29  # of all tables of a drawing; a page of 8192 px has some 2**25
 
 
 def write(drawing: Drawing, path: Path) -> None:
@@ -73,12 +78,15 @@ def dumps(drawing: Drawing) -> str:
             "ring_offsets": _packed(_offsets([len(fill) for fill in drawing.fills])),
         },
         "region_colors": _packed(drawing.region_colors),
+        "fidelity": drawing.fidelity and drawing.fidelity.as_dict(),
+        "notes": list(drawing.notes),
+        "warnings": list(drawing.warnings),
     }
     return json.dumps(document, separators=(",", ":"))
 
 
 def read(text: str, name: str = "The file") -> Drawing:
-    """The drawing that `dumps` wrote.
+    """The drawing that `dumps` wrote; checked completely, see `soundness`.
 
     Args:
         text: the JSON.
@@ -88,65 +96,91 @@ def read(text: str, name: str = "The file") -> Drawing:
         InvoluteError: not a drawing, a damaged one, or one of a newer version.
     """
     try:
-        document = json.loads(text)
-        if document.get("format") != FORMAT:
-            raise ValueError("another format")
-        if document["version"] > VERSION:
-            raise InvoluteError(
-                f"{name} was written by a newer Involute (format {document['version']}, this one "
-                f"reads up to {VERSION}); update Involute to open it."
-            )
-        return _drawing(document)
-    except (AttributeError, IndexError, KeyError, TypeError, ValueError, zlib.error) as error:
+        document = json.loads(text, parse_constant=_no_constant)
+        _check_head(document, name)
+        drawing = _drawing(document)
+        check_graph(drawing.graph)
+        drawing = replace(drawing, routing=with_corners(drawing.routing, drawing.graph))
+        check_drawing(drawing)
+        return drawing
+    except UnsoundError as error:
+        raise _damaged(name, str(error)) from error
+    except json.JSONDecodeError as error:
+        raise _damaged(name, f"line {error.lineno}, column {error.colno}: {error.msg}") from error
+    except (ArithmeticError, AttributeError, LookupError, RecursionError, TypeError) as error:
+        raise _damaged(name, "it is not laid out as one") from error
+    except ValueError as error:
+        raise _damaged(name, "it is not laid out as one") from error
+
+
+def _damaged(name: str, why: str) -> InvoluteError:
+    return InvoluteError(
+        f"{name} isn't a drawing of Involute or is damaged ({why}); trace the picture again."
+    )
+
+
+def _no_constant(word: str) -> float:
+    raise UnsoundError(f"{word} stands in it")
+
+
+def _check_head(document: Any, name: str) -> None:
+    """Refuse what says itself that it is something else.
+
+    Raises:
+        UnsoundError, InvoluteError: says what.
+    """
+    if not isinstance(document, dict) or document.get("format") != FORMAT:
+        raise UnsoundError("it does not say that it is one")
+    version = document.get("version")
+    if type(version) is not int or version < 1:
+        raise UnsoundError("its version is no number")
+    if version > VERSION:
         raise InvoluteError(
-            f"{name} isn't a drawing of Involute or is damaged; trace the picture again."
-        ) from error
+            f"{name} was written by a newer Involute (format {str(version)[:9]}, this one "
+            f"reads up to {VERSION}); update Involute to open it."
+        )
 
 
 def _drawing(document: dict[str, Any]) -> Drawing:
     known = {f.name for f in fields(Settings)}
-    graph = PlanarGraph(**{k: _unpacked(v) for k, v in document["graph"].items()})
-    routing = document["routing"]
+    unpack = _Unpacker()
+    width, height = document["size"]
+    if type(width) is not int or type(height) is not int:
+        raise UnsoundError("its size is no number of pixels")
+    try:
+        settings = Settings(**{k: v for k, v in document["settings"].items() if k in known})
+    except InvoluteError as error:
+        raise UnsoundError(str(error).rstrip(".")) from None
+    routing = dict(document["routing"])
     alternatives = tuple(
         tuple(Alternative(tuple((a, b) for a, b in pairs), p) for pairs, p in ways)
         for ways in routing.pop("alternatives")
     )
-    drawing = Drawing(
-        graph=graph,
-        routing=Routing(**{k: _unpacked(v) for k, v in routing.items()}, alternatives=alternatives),
-        strokes=tuple(_strokes(document["strokes"])),
-        fills=tuple(_fills(document["fills"])),
-        size=(int(document["size"][0]), int(document["size"][1])),
-        settings=Settings(**{k: v for k, v in document["settings"].items() if k in known}),
-        seconds=document["seconds"],
+    return Drawing(
+        graph=PlanarGraph(**{k: unpack(v) for k, v in document["graph"].items()}),
+        routing=Routing(**{k: unpack(v) for k, v in routing.items()}, alternatives=alternatives),
+        strokes=tuple(_strokes({k: unpack(v) for k, v in document["strokes"].items()})),
+        fills=tuple(_fills({k: unpack(v) for k, v in document["fills"].items()})),
+        size=(width, height),
+        settings=settings,
+        seconds=dict(document["seconds"]),
         scale=float(document.get("scale", 1.0)),
-        region_colors=_unpacked(document.get("region_colors")),
+        region_colors=unpack(document.get("region_colors")),
+        fidelity=Fidelity.from_dict(document["fidelity"]) if document.get("fidelity") else None,
+        notes=tuple(map(str, document.get("notes", ()))),
+        warnings=tuple(map(str, document.get("warnings", ()))),
     )
-    _check(drawing)
-    return drawing
 
 
-def _check(drawing: Drawing) -> None:
-    """Refuse what would only fail later, somewhere else."""
-    graph, routing = drawing.graph, drawing.routing
-    halves = 2 * graph.branch_count
-    partner = routing.partner
-    sound = (
-        len(graph.ends) == graph.branch_count
-        and graph.offsets[-1] == len(graph.points)
-        and (halves == 0 or 0 <= graph.ends.min() <= graph.ends.max() < len(graph.vertices))
-        and len(partner) == halves
-        and np.array_equal(partner[partner], np.arange(halves))
-        and len(routing.alternatives) == len(routing.locked) == len(graph.junctions)
-    )
-    if not sound:
-        raise ValueError("graph and routing don't fit")
-
-
-def _strokes(packed: dict[str, Any]) -> list[Stroke]:
-    data = {name: _unpacked(value) for name, value in packed.items()}
-    starts, first = data["offsets"], data["branch_offsets"]
-    curve = _offsets(np.diff(starts) * data["curved"])
+def _strokes(data: dict[str, Array]) -> list[Stroke]:
+    count = len(data["closed"])
+    starts = _starts(data["offsets"], count, len(data["points"]), "the points of the strokes")
+    first = _starts(data["branch_offsets"], count, len(data["branches"]), "the strokes' branches")
+    for name, shape in (("closed", (count,)), ("curved", (count,)), ("color", (count, 3))):
+        if data[name].shape != shape:
+            raise UnsoundError(f"the table '{name}' of the strokes has not their number")
+    curve = _offsets(np.diff(starts) * data["curved"].astype(bool)).tolist()
+    _starts(curve, count, len(data["handles"]), "the handles of the strokes")
     return [
         Stroke(
             points=data["points"][low:high],
@@ -159,23 +193,40 @@ def _strokes(packed: dict[str, Any]) -> list[Stroke]:
         )
         for i, (low, high, closed, color, curved) in enumerate(
             zip(
-                starts[:-1].tolist(),
-                starts[1:].tolist(),
-                data["closed"].tolist(),
+                starts[:-1],
+                starts[1:],
+                data["closed"].astype(bool).tolist(),
                 data["color"].tolist(),
-                data["curved"].tolist(),
+                data["curved"].astype(bool).tolist(),
                 strict=True,
             )
         )
     ]
 
 
-def _fills(packed: dict[str, Any]) -> list[tuple[Array, ...]]:
-    points, offsets, ring_offsets = (
-        _unpacked(packed[name]) for name in ("points", "offsets", "ring_offsets")
-    )
-    rings = np.split(points, offsets[1:-1]) if len(offsets) > 1 else []
-    return [tuple(rings[a:b]) for a, b in pairwise(ring_offsets)]
+def _fills(data: dict[str, Array]) -> list[tuple[Array, ...]]:
+    points, offsets = data["points"], data["offsets"]
+    starts = _starts(offsets, len(offsets) - 1, len(points), "the outlines of the fills")
+    rings = [points[low:high] for low, high in pairwise(starts)]
+    of_fill = data["ring_offsets"]
+    return [
+        tuple(rings[low:high])
+        for low, high in pairwise(_starts(of_fill, len(of_fill) - 1, len(rings), "the fills"))
+    ]
+
+
+def _starts(offsets: Array | list[int], count: int, total: int, what: str) -> list[int]:
+    """Where each of so many rows begins in a table of so many, and the end of the last.
+
+    Raises:
+        UnsoundError: they don't fit.
+    """
+    values = np.asarray(offsets)
+    good = values.ndim == 1 and values.dtype.kind == "i" and len(values) == count + 1
+    good = good and values[0] == 0 and values[-1] == total and bool((np.diff(values) >= 0).all())
+    if not good:
+        raise UnsoundError(f"{what} don't fit together")
+    return values.tolist()
 
 
 def _offsets(counts: Sequence[int] | Array) -> Array:
@@ -195,13 +246,30 @@ def _packed(array: Array | None) -> Any:
     return {"dtype": kind, "shape": list(array.shape), "data": data}
 
 
-def _unpacked(packed: Any) -> Array | None:
-    if packed is None:
-        return None
-    if packed["dtype"] not in _DTYPES:
-        raise ValueError("an unknown kind of array")
-    try:
-        raw = zlib.decompress(base64.b64decode(packed["data"], validate=True))
-    except binascii.Error as error:
-        raise ValueError("damaged array") from error
-    return np.frombuffer(raw, packed["dtype"]).reshape(packed["shape"]).copy()
+class _Unpacker:
+    """Unpacks the arrays of one drawing; never more than what they say, and not too much of it."""
+
+    def __init__(self) -> None:
+        self._left = _MOST_BYTES
+
+    def __call__(self, packed: Any) -> Array | None:
+        if packed is None:
+            return None
+        dtype, shape = packed["dtype"], packed["shape"]
+        if dtype not in _DTYPES or any(type(n) is not int or n < 0 for n in shape):
+            raise UnsoundError("a table of an unknown kind is in it")
+        size = math.prod(shape) * np.dtype(dtype).itemsize
+        self._left -= size
+        if self._left < 0 or len(shape) > 3:
+            raise UnsoundError("its tables are larger than those of any page")
+        try:
+            raw = base64.b64decode(packed["data"], validate=True)
+            unpacker = zlib.decompressobj()
+            content = unpacker.decompress(raw, size + 1)
+        except (binascii.Error, zlib.error):
+            raise UnsoundError("a table in it is damaged") from None
+        if len(content) != size:
+            raise UnsoundError("a table has not the size that it says")
+        if dtype == "bool" and size and max(content) > 1:
+            raise UnsoundError("a table of yes and no holds something else")
+        return np.frombuffer(content, dtype).reshape(shape).copy()

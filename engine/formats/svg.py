@@ -15,11 +15,14 @@ import numpy as np
 
 from ..drawing import Drawing
 from ..errors import InvoluteError
+from ..routing import with_corners
 from ..settings import Settings
+from ..soundness import UnsoundError, check_drawing
 from ..values import Array, PlanarGraph, Routing, Stroke
 from .flatten import outline
 from .whole_file import write_text
 
+_FARTHEST = 1e7  # px from the page's corner
 _COMMAND = re.compile(r"([MLCZ])([^MLCZ]*)")
 
 
@@ -37,7 +40,7 @@ def dumps(drawing: Drawing) -> str:
     ]
     if drawing.settings.regions and drawing.regions:
         colors = drawing.region_colors
-        if colors is None:
+        if colors is None or len(colors) != len(drawing.regions):
             colors = np.full((len(drawing.regions), 3), 255, np.uint8)
         lines += _areas("region", drawing.regions, [tuple(color) for color in colors.tolist()])
     if drawing.fills:
@@ -58,18 +61,38 @@ def read(text: str, name: str = "The file") -> Drawing:
         InvoluteError: not an SVG, or one with other path commands than absolute M, L, C and Z.
     """
     try:
+        if "<!ENTITY" in text:  # they can blow up a small file
+            raise UnsoundError("it declares entities")
         root = ElementTree.fromstring(text)
-        _, _, width, height = map(float, root.get("viewBox", "").replace(",", " ").split())
+        _, _, width, height = map(_number, root.get("viewBox", "").replace(",", " ").split())
         paths = list(root.iter("{http://www.w3.org/2000/svg}path"))
         fills = tuple(_rings(p.get("d", "")) for p in paths if "data-fill" in p.attrib)
         lines = [p for p in paths if not {"data-fill", "data-region"} & p.attrib.keys()]
         strokes = tuple(_stroke(element.attrib, i) for i, element in enumerate(lines))
-    except (ElementTree.ParseError, ValueError):
-        raise InvoluteError(
-            f"{name} isn't an SVG that Involute wrote; open its .json or trace the picture again."
-        ) from None
-    size = (round(width), round(height))
-    return Drawing(*_unconnected(strokes), strokes, fills, size, Settings())
+        size = (round(width), round(height))
+        drawing = Drawing(*_unconnected(strokes), strokes, fills, size, Settings())
+        check_drawing(drawing)
+        return drawing
+    except UnsoundError as error:
+        raise _foreign(name, str(error)) from None
+    except ElementTree.ParseError as error:
+        raise _foreign(name, str(error)) from None
+    except (ArithmeticError, ValueError):
+        raise _foreign(name, "a path or a size in it can't be read") from None
+
+
+def _foreign(name: str, why: str) -> InvoluteError:
+    return InvoluteError(
+        f"{name} isn't an SVG that Involute wrote ({why}); open its .json or trace the picture "
+        "again."
+    )
+
+
+def _number(text: str) -> float:
+    value = float(text)
+    if not -_FARTHEST <= value <= _FARTHEST:
+        raise UnsoundError("a number in it is out of range")
+    return value
 
 
 def _areas(
@@ -130,14 +153,14 @@ def _thousandths(values: Array) -> str:
 def _stroke(attributes: dict[str, str], index: int) -> Stroke:
     (points, handles), *more = _subpaths(attributes.get("d", ""))
     if more or len(points) < 2:
-        raise ValueError("a stroke is one line of two points or more")
+        raise UnsoundError(f"stroke {index} is not one line of two points or more")
     closed = "data-closed" in attributes
     if closed:
         if handles is not None:
             handles[0, 0] = handles[-1, 0]
             handles = handles[:-1]
         points = points[:-1]
-    width = f"{float(attributes.get('stroke-width', '1')) * 1000:.0f}"
+    width = f"{_number(attributes.get('stroke-width', '1')) * 1000:.0f}"
     color = attributes.get("stroke", "#000000").lstrip("#")
     return Stroke(
         points=points,
@@ -150,8 +173,17 @@ def _stroke(attributes: dict[str, str], index: int) -> Stroke:
     )
 
 
+def _floats(text: str) -> Array:
+    values = np.array(text.split(), np.float64)
+    if not (np.abs(values) <= _FARTHEST).all():
+        raise UnsoundError("a number in it is out of range")
+    return values.astype(np.float32)
+
+
 def _per_point(text: str, count: int) -> Array:
-    values = np.array(text.split(), np.float32) / 1000
+    values = _floats(text) / 1000
+    if len(values) not in (1, count):
+        raise UnsoundError("widths or opacities are not as many as points")
     return np.ascontiguousarray(np.broadcast_to(values, count))
 
 
@@ -162,7 +194,7 @@ def _rings(data: str) -> tuple[Array, ...]:
 def _subpaths(data: str) -> list[tuple[Array, Array | None]]:
     """The lines of a path's data: points and, when it has curves, Bezier handles."""
     if not data or _COMMAND.sub("", data).strip():
-        raise ValueError("other commands than M, L, C and Z")
+        raise UnsoundError("a path has other commands than M, L, C and Z")
     found: list[tuple[Array, Array | None]] = []
     runs: list[Array] = []
 
@@ -181,7 +213,9 @@ def _subpaths(data: str) -> list[tuple[Array, Array | None]]:
         runs.clear()
 
     for command, text in _COMMAND.findall(data):
-        values = np.array(text.replace(",", " ").split(), np.float32)
+        values = _floats(text.replace(",", " "))
+        if command != "Z" and (not values.size or (command != "M" and not runs)):
+            raise UnsoundError("a path does not begin with a point")
         if command == "M":
             finish()
             runs.append(values.reshape(-1, 2))
@@ -195,6 +229,13 @@ def _subpaths(data: str) -> list[tuple[Array, Array | None]]:
             runs.append(values.reshape(-1, 3, 2))
     finish()
     return found
+
+
+def _along(stroke: Stroke, count: int) -> Array:
+    """The widths of a stroke at so many points of its outline, evenly between its own."""
+    widths = np.append(stroke.widths, stroke.widths[:1]) if stroke.closed else stroke.widths
+    at = np.linspace(0, len(widths) - 1, count)
+    return np.interp(at, np.arange(len(widths)), widths).astype(np.float32)
 
 
 def _unconnected(strokes: tuple[Stroke, ...]) -> tuple[PlanarGraph, Routing]:
@@ -215,9 +256,13 @@ def _unconnected(strokes: tuple[Stroke, ...]) -> tuple[PlanarGraph, Routing]:
                 np.int32
             ),
             ends=ends.astype(np.int32),
+            widths=np.concatenate(
+                [_along(s, len(line)) for s, line in zip(strokes, lines, strict=True)]
+            ),
         )
     partner = np.arange(2 * graph.branch_count, dtype=np.int32)
     loop = np.flatnonzero(graph.degrees[graph.half_vertex] == 2)
     partner[loop] = loop ^ 1
     no_pairs = np.zeros((0, 2), np.int32)
-    return graph, Routing(partner, no_pairs, np.zeros(0, np.float32), (), np.zeros(0, bool))
+    routing = Routing(partner, no_pairs, np.zeros(0, np.float32), (), np.zeros(0, bool))
+    return graph, with_corners(routing, graph)

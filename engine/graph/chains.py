@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-Array = np.ndarray
+from ..values import Array
 
 
 def follow(source: Array, back: Array, is_node: Array) -> tuple[Array, Array]:

@@ -1,6 +1,6 @@
-"""Which half-branches run on into which: smooth curves through a blob.
+"""Which half-branches run on into which: smooth curves through a cluster.
 
-Every pair of half-branches that leave one blob is tried: one cubic through the clean points of
+Every pair of half-branches that leave one cluster is tried: one cubic through the clean points of
 both sides, in the frame of their chord. A true continuation fits to a tenth of a pixel and hardly
 turns. This pairing only serves to find the exact place of the junction; what is one stroke is
 decided later, by the routing.
@@ -9,24 +9,18 @@ decided later, by the routing.
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
-from functools import cache
-from itertools import combinations
 
 import numpy as np
 
 from ..arrays.sampling import sample
-from .courses import Halves, direction
+from ..values import Array
+from .courses import Courses, direction
+from .limits import LIMITS
 
-Array = np.ndarray
-
-SAMPLES = 17  # points of a curve within the blob, exits included
+SAMPLES = 17  # points of a curve within the cluster, exits included
 ALONE = 1.0  # cost of a half-branch that runs on into none
-NOISE = 0.2  # px; how far ridge points stray from a smooth line
-TURN, SWERVE = np.radians(40.0), np.radians(20.0)  # a bend, and a bend with a counter-bend
-BENT = 0.8  # how much of the bend that the sides foretell is free
-INK = 0.35  # a curve must stay this bright, compared with the fainter of its two sides
-NEVER = 1e3
-FADE = 6  # how fast a curve goes over from the ridge point at its exit to the cubic
+NEVER = 1e3  # cost of what is out of the question
+FADE = 6  # power; how fast a curve goes over from the ridge point at its exit to the cubic
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,7 +75,7 @@ class Continuations:
         value: (H, W) the smoothed centerline map; a curve that leaves the ink is out.
     """
 
-    def __init__(self, half: Halves, value: Array) -> None:
+    def __init__(self, half: Courses, value: Array) -> None:
         self._half = half
         self._value = value
         self._keys = np.zeros(0, np.int64)
@@ -101,7 +95,7 @@ class Continuations:
         return self._fits.pick(np.searchsorted(self._keys, keys))
 
 
-def _fit(half: Halves, pairs: Array, value: Array) -> Fits:
+def _fit(half: Courses, pairs: Array, value: Array) -> Fits:
     """One cubic through both half-branches of each pair."""
     a, b = pairs.T
     chord = half.center[b] - half.center[a]
@@ -109,8 +103,9 @@ def _fit(half: Halves, pairs: Array, value: Array) -> Fits:
     axis = chord / np.maximum(length, 1e-9)[:, None]
     scale = np.maximum(length, 1.0)
     origin = (half.points[a, 0] + half.points[b, 0]) / 2
-    # Both sides must lie on their own side of the blob, and run away from it.
-    apart = ((half.outward[a] * axis).sum(1) < -0.4) & ((half.outward[b] * axis).sum(1) > 0.4)
+    # Both sides must lie on their own side of the cluster, and run away from it.
+    side = LIMITS.continue_side
+    apart = ((half.outward[a] * axis).sum(1) < -side) & ((half.outward[b] * axis).sum(1) > side)
     some = np.flatnonzero(apart)
     cost = np.full(len(pairs), NEVER)
     coefficients, span, offset = (np.zeros((len(pairs), n)) for n in (4, 2, 2))
@@ -138,14 +133,18 @@ def _fit(half: Halves, pairs: Array, value: Array) -> Fits:
     # A curve that bends as both of its sides do bends no more than it must.
     due = (half.bend[b] - half.bend[a]) / 2 * gap
     due = np.where(turn * due > 0, np.minimum(np.abs(due), np.abs(turn)), 0.0)
-    turn = np.abs(turn) - BENT * due
+    turn = np.abs(turn) - LIMITS.continue_bent * due
     swerve = angle.mean(1) - lean
-    total = (rms / NOISE) ** 2 + (turn / TURN) ** 2 + (swerve / SWERVE) ** 2
+    total = (
+        (rms / LIMITS.continue_noise) ** 2
+        + (turn / np.radians(LIMITS.continue_turn)) ** 2
+        + (swerve / np.radians(LIMITS.continue_swerve)) ** 2
+    )
     total[(ends[:, 1] < ends[:, 0]) | ~np.isfinite(total)] = NEVER
     coefficients[some], span[some] = c, ends
     offset[some] = np.stack([y[:, 0], y[:, n]], -1) - across
     dark = sample(value, fits.pick(some).sampled()).min(1)
-    total[dark < INK * np.minimum(half.level[a], half.level[b])] = NEVER
+    total[dark < LIMITS.continue_ink * np.minimum(half.level[a], half.level[b])] = NEVER
     cost[some] = np.minimum(total, NEVER)
     return fits
 
@@ -167,7 +166,7 @@ def _cubic(x: Array, y: Array, weight: Array) -> tuple[Array, Array]:
 
 
 def extend(points: Array, weights: Array, reach: Array) -> Array:
-    """Half-branches continued into their blob.
+    """Half-branches continued into their cluster.
 
     Args:
         points, weights: (K, N, 2) and (K, N), outward from the exit.
@@ -194,69 +193,6 @@ def extend(points: Array, weights: Array, reach: Array) -> Array:
     across = _value(c, -along) - c[:, :1] * np.maximum(0.0, 1 - t) * (1 - t)
     side = np.stack([-inward[:, 1], inward[:, 0]], -1)
     return exit_point + along[..., None] * inward[:, None] + across[..., None] * side[:, None]
-
-
-def best_pairing(group: Array, pairs: Array, cost: Array) -> Array:
-    """Which pairs to join so that the whole costs least.
-
-    Args:
-        group: (H,) the group of every half-branch; those of group -1 take no part.
-        pairs: (K, 2) all pairs within groups, and their cost (K,).
-
-    Returns:
-        (K,) bool. Groups of up to eight half-branches are solved exactly, larger ones greedily.
-    """
-    chosen = np.zeros(len(pairs), bool)
-    if len(pairs) == 0:
-        return chosen
-    size = np.bincount(group[group >= 0])
-    owner = group[pairs[:, 0]]
-    # Pairs come group by group, each in the order of `combinations`.
-    order = np.lexsort((pairs[:, 1], pairs[:, 0], owner))
-    for k in np.unique(size[owner]):
-        mine = order[size[owner[order]] == k]
-        if k <= 8:
-            table, alone = _involutions(int(k))
-            mine = mine.reshape(-1, table.shape[1])
-            total = cost[mine] @ table.T + alone * ALONE
-            chosen[mine] = table[total.argmin(1)] > 0
-        else:
-            chosen[_greedy(pairs[mine], cost[mine], mine)] = True
-    return chosen
-
-
-@cache
-def _involutions(k: int) -> tuple[Array, Array]:
-    """All ways to pair up k things: (I, k (k - 1) / 2) 0 or 1, and (I,) how many stay alone."""
-    column = {pair: i for i, pair in enumerate(combinations(range(k), 2))}
-
-    def ways(rest: tuple[int, ...]) -> list[list[tuple[int, int]]]:
-        if not rest:
-            return [[]]
-        head, tail = rest[0], rest[1:]
-        found = ways(tail)
-        for i, other in enumerate(tail):
-            found += [[(head, other), *w] for w in ways(tail[:i] + tail[i + 1 :])]
-        return found
-
-    every = ways(tuple(range(k)))
-    table = np.zeros((len(every), len(column)))
-    for row, way in enumerate(every):
-        table[row, [column[pair] for pair in way]] = 1
-    return table, k - 2 * table.sum(1)
-
-
-def _greedy(pairs: Array, cost: Array, ids: Array) -> Array:
-    taken: set[int] = set()
-    picked = []
-    for i in np.argsort(cost, kind="stable"):
-        if cost[i] >= 2 * ALONE:
-            break
-        a, b = map(int, pairs[i])
-        if a not in taken and b not in taken:
-            taken |= {a, b}
-            picked.append(ids[i])
-    return np.array(picked, np.int64)
 
 
 def pairs_within(group: Array) -> Array:

@@ -12,24 +12,24 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arrays.ragged import owners
 from ..arrays.sampling import sample
-from ..values import PlanarGraph
+from ..values import Array, PlanarGraph
+from .evidence import Evidence
+from .limits import LIMITS
 
-Array = np.ndarray
-
-WINDOW = 16  # points of a half-branch, outside its blob, that tell where it goes
-REACH = 1.6  # px; a second line nearer than this bends the ridge of a first one noticeably
+WINDOW = 16  # points of a half-branch, outside its cluster, that tell where it goes
 
 
 @dataclass(frozen=True, eq=False)
-class Halves:
-    """The half-branches of a graph, read outward from where they leave their blob.
+class Courses:
+    """The half-branches of a graph, read outward from where they leave their cluster.
 
     exit: (2B,) int32, the point of graph.points at which the clean part begins.
     points: (2B, WINDOW, 2) float64, px, and weights: (2B, WINDOW) float64: the course from there
         on; the weight is small where a neighbour spoils the ridge, 0 past the end of the branch.
     level: (2B,) float64, mean brightness of the ridge along that course.
-    center (2B, 2), outward (2B, 2): its middle, and the unit direction away from the blob.
+    center (2B, 2), outward (2B, 2): its middle, and the unit direction away from the cluster.
     bend: (2B,) float64, curvature there, 1/px; positive when it turns towards +y from +x.
     """
 
@@ -44,9 +44,8 @@ class Halves:
 
 def spoilt(graph: PlanarGraph, shape: tuple[int, int], reach: float) -> Array:
     """(P,) bool: points nearer than `reach` px to a line that isn't their own course."""
-    counts = np.diff(graph.offsets)
     # A number per point that jumps between branches: far apart = not the same piece of line.
-    place = np.arange(len(graph.points)) + np.repeat(np.arange(len(counts)) * 64, counts) + 64
+    place = np.arange(len(graph.points)) + 64 * owners(graph.offsets) + 64
     margin = int(np.ceil(reach))
     pixel = np.clip(graph.points.astype(np.int32), 0, np.array(shape[::-1]) - 1) + margin
     image = np.zeros(np.add(shape, 2 * margin), np.int32)
@@ -67,15 +66,15 @@ def spoilt(graph: PlanarGraph, shape: tuple[int, int], reach: float) -> Array:
     return found
 
 
-def read_halves(graph: PlanarGraph, value: Array, pen: float) -> Halves:
-    """Where every half-branch leaves its blob, and its course from there on.
+def read_courses(graph: PlanarGraph, evidence: Evidence) -> Courses:
+    """Where every half-branch leaves its cluster, and its course from there on.
 
     Args:
         graph: the skeleton's graph, its points on the crest of the lines.
-        value: (H, W) the smoothed centerline map.
-        pen: width of the ridge, px.
+        evidence: its smoothed centerline map.
     """
-    dirty = spoilt(graph, value.shape, REACH * max(1.0, pen / 2))
+    value = evidence.value
+    dirty = spoilt(graph, value.shape, LIMITS.course_reach * max(1.0, evidence.ridge_width / 2))
     starts, stops = graph.offsets[:-1].astype(np.int64), graph.offsets[1:].astype(np.int64) - 1
     index = np.arange(len(graph.points))
     usable = np.where(dirty, len(index), index)
@@ -95,14 +94,14 @@ def read_halves(graph: PlanarGraph, value: Array, pen: float) -> Halves:
     place = begin[:, None] + step[:, None] * np.arange(WINDOW)
     inside = (place >= np.repeat(starts, 2)[:, None]) & (place <= np.repeat(stops, 2)[:, None])
     place = np.clip(place, 0, len(index) - 1)
-    weights = np.where(dirty[place], 0.05, 1.0) * inside
+    weights = np.where(dirty[place], LIMITS.course_dirty, 1.0) * inside
     points = graph.points[place].astype(np.float64)
     total = np.maximum(weights.sum(1), 1e-9)
     level = (sample(value, points) * weights).sum(1) / total
-    near = weights * np.exp(-((np.arange(WINDOW) / 8.0) ** 2))
+    near = weights * np.exp(-((np.arange(WINDOW) / LIMITS.course_fade) ** 2))
     center = _mean(points, near)
     outward = direction(points, near)
-    return Halves(
+    return Courses(
         begin.astype(np.int32), points, weights, level, center, outward, _bend(points, weights)
     )
 

@@ -10,23 +10,24 @@ from dataclasses import replace
 
 import numpy as np
 
+from ..arrays.ragged import offsets_of
 from ..arrays.sampling import sample
+from ..settings import Settings
 from ..values import PlanarGraph
-
-Array = np.ndarray
+from .evidence import Evidence
+from .limits import LIMITS
 
 _BACK, _AHEAD, _STEP = 3.0, 3.0, 0.25  # px searched before and after the skeleton's end
-LEFT = 0.6
 _INSIDE = 8  # points of the branch that give its direction and its brightness
 
 
-def place_ends(graph: PlanarGraph, value: Array) -> PlanarGraph:
+def place_ends(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> PlanarGraph:
     """Move every free end along its line to where the line ends.
 
-    Args:
-        graph: points about 1 px apart.
-        value: (H, W) the smoothed centerline map.
+    Reads: the smoothed centerline map; points about 1 px apart.
+    Promises: points about 1 px apart but for the last ones.
     """
+    value = evidence.value
     counts = np.diff(graph.offsets)
     free = np.flatnonzero((graph.degrees[graph.half_vertex] == 1) & (np.repeat(counts, 2) > 3))
     if not len(free):
@@ -50,7 +51,7 @@ def place_ends(graph: PlanarGraph, value: Array) -> PlanarGraph:
     reach = np.arange(-_BACK, _AHEAD + _STEP / 2, _STEP)
     tips = graph.points[tip].astype(np.float64)
     profile = sample(value, tips[:, None] + reach[:, None] * outward[:, None])
-    half = LEFT * level[:, None]
+    half = LIMITS.end_left * level[:, None]
     # Where it grows brighter again, another line begins.
     falls = np.diff(profile, axis=1, prepend=profile[:, :1]) < 0.01 * level[:, None]
     lit = (profile > half) & (falls | (reach < 0.5))
@@ -78,5 +79,5 @@ def place_ends(graph: PlanarGraph, value: Array) -> PlanarGraph:
         graph,
         vertices=vertices,
         points=points[keep],
-        offsets=np.concatenate([[0], np.cumsum(kept)]).astype(np.int32),
+        offsets=offsets_of(kept).astype(np.int32),
     )

@@ -12,32 +12,25 @@ from dataclasses import replace
 import numpy as np
 
 from ..arrays.sampling import sample
-from ..values import PlanarGraph
+from ..settings import Settings
+from ..values import Array, PlanarGraph
+from .evidence import Evidence
+from .limits import LIMITS
 from .nearby import near_pairs
 from .topology import lengths
 
-Array = np.ndarray
-
-WIDEST = 2.0  # pen widths between the ends of two centerlines: a gap of one pen width in the ink
-LEAST = 3.0  # px, bridged however fine the pen is
 BACK = 8  # points that tell which way an end looks
-STRAIGHT = np.cos(np.radians(35.0))  # how far two ends may turn to meet
-ASIDE = 0.35  # px to the side for every px of the gap, and half a px more
 
 
-def bridge(graph: PlanarGraph, value: Array, pen_width: float) -> PlanarGraph:
+def bridge_gaps(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> PlanarGraph:
     """Add a branch across every small gap between two free ends that run on into each other.
 
-    Args:
-        graph: points about 1 px apart.
-        value: (H, W) the smoothed centerline map.
-        pen_width: typical width of a line, px.
-
-    Returns:
-        The graph with more branches; the ends they link have degree two now.
+    Reads: the smoothed centerline map and the width of the pen; points about 1 px apart.
+    Promises: more branches, of two points each; the ends they link have degree two now.
     """
+    value, pen_width = evidence.value, evidence.pen_width
     free = np.flatnonzero(graph.degrees[graph.half_vertex] == 1)
-    reach = max(LEAST, WIDEST * pen_width)
+    reach = max(LIMITS.gap_least, LIMITS.gap_widest * pen_width)
     tips, outward = _looks(graph, free)
     a, b = near_pairs(tips, reach).T
     # Both ends of one short piece look away from each other, but see each other all the same.
@@ -48,11 +41,15 @@ def bridge(graph: PlanarGraph, value: Array, pen_width: float) -> PlanarGraph:
     aside = np.maximum(_cross(outward[a], way), _cross(outward[b], way))
     facing = -(outward[a] * outward[b]).sum(1)
     shorter = np.minimum(*(lengths(graph)[free[v] >> 1] for v in (a, b)))
-    fits = (facing > STRAIGHT) & (ahead > 0) & (aside < ASIDE * gap + 0.5)
+    fits = (
+        (facing > np.cos(np.radians(LIMITS.gap_straight)))
+        & (ahead > 0)
+        & (aside < LIMITS.gap_aside * gap + 0.5)
+    )
     # What is brighter in the middle than at the ends is another line.
     light = sample(value, tips)
     fits &= sample(value, (tips[a] + tips[b]) / 2) < np.minimum(light[a], light[b])
-    fits &= (gap < reach) & (gap < 2 * shorter + LEAST)
+    fits &= (gap < reach) & (gap < 2 * shorter + LIMITS.gap_least)
     a, b, cost = a[fits], b[fits], (gap + 2 * aside)[fits]
     best = _mutual(a, b, cost, len(free))
     links = graph.half_vertex[free[np.stack([a[best], b[best]], -1)]]

@@ -1,9 +1,9 @@
 """Put every junction where its lines meet.
 
-Inside a blob the ridge can't be trusted: it is bent towards the blob's middle, a shallow crossing
-is one line for a while, a crossing is two forks. The paper tries one or two junctions on a grid of
-candidates and joins each branch to them by a straight line. We let the branches run on instead, as
-smooth curves fitted outside the blob: their crossings ARE the junctions, one or several; what
+Inside a cluster of forks the ridge can't be trusted: it is bent towards the middle, a shallow
+crossing is one line for a while, a crossing is two forks. The paper tries one or two junctions on a
+grid of candidates and joins each branch to them by a straight line. We let the branches run on, as
+smooth curves fitted outside the cluster: their crossings ARE the junctions, one or several; what
 doesn't run through (a stem) ends on the first curve it hits; where nothing runs through, the
 junction is the least-squares meeting point. The branches then follow these curves to the junction.
 """
@@ -12,68 +12,61 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..arrays.ragged import offsets_of, ranges
 from ..arrays.sampling import sample
-from ..values import PlanarGraph
-from .clusters import find_blobs
-from .continuations import SAMPLES, Continuations, best_pairing, extend, pairs_within
-from .courses import Halves, read_halves
+from ..involution import least_cost
+from ..settings import Settings
+from ..values import Array, PlanarGraph
+from .clusters import find_clusters
+from .continuations import ALONE, SAMPLES, Continuations, extend, pairs_within
+from .courses import Courses, read_courses
+from .evidence import Evidence
+from .limits import LIMITS
 from .shared_ridges import told_apart
 from .topology import connected, join
 
-Array = np.ndarray
 
-MERGE = 1.4  # px; crossings nearer than this are one junction
-TOUCH = 0.6  # px; curves that come this near touch
-BENT = 0.4  # cost of a continuation that is none too smooth
-STAR = 0.6  # px; how far beside their meeting point straight half-branches may pass
-STRAY = 6.0  # px; a stem may miss the curve that it ends on by this much
-
-
-def resolve(graph: PlanarGraph, value: Array, pen: float) -> PlanarGraph:
+def resolve_junctions(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> PlanarGraph:
     """Move the junctions of a skeleton's graph to where its lines meet.
 
-    Args:
-        graph: the skeleton, its points on the crest of the lines.
-        value: (H, W) the smoothed centerline map.
-        pen: width of the ridge, px.
-
-    Returns:
-        The graph, its junctions in place; sharp bends are still vertices of degree two.
+    Reads: the smoothed centerline map; points on the crest of the lines.
+    Promises: junctions in their place; sharp bends are still vertices of degree two.
     """
     ring = graph.ends[graph.ends[:, 0] == graph.ends[:, 1], 0]
     active = graph.degrees >= 2
     active[ring] &= graph.degrees[ring] > 2
     if not active.any():
         return graph
-    half = read_halves(graph, value, pen)
+    value = evidence.value
+    half = read_courses(graph, evidence)
     fits = Continuations(half, value)
-    blob, inner = find_blobs(graph, fits)
-    return _rebuild(graph, half, fits, np.where(active, blob, -1), inner, value)
+    cluster, inner = find_clusters(graph, fits)
+    return _rebuild(graph, half, fits, np.where(active, cluster, -1), inner, value)
 
 
 def _rebuild(
     graph: PlanarGraph,
-    half: Halves,
+    half: Courses,
     fits: Continuations,
     group: Array,
     inner: Array,
     value: Array,
 ) -> PlanarGraph:
-    """Replace all blobs by curves; see the module's docstring."""
+    """Replace all clusters by curves; see the module's docstring."""
     h_group = np.where(np.repeat(inner, 2), -1, group[graph.half_vertex])
     pairs = pairs_within(h_group)
     found = fits.of(pairs)
-    chosen = np.flatnonzero(best_pairing(h_group, pairs, found.cost))
+    chosen = np.flatnonzero(least_cost(h_group, pairs, found.cost, ALONE))
     chosen = chosen[~_stars(h_group, pairs[chosen], found.cost[chosen], graph, half, value)]
     through = pairs[chosen]
     alone = h_group >= 0
     alone[through] = False
     stems = np.flatnonzero(alone)
 
-    # Blobs by consecutive numbers, and their middle.
+    # Clusters by consecutive numbers, and their middle.
     names, of_half = np.unique(h_group[h_group >= 0], return_inverse=True)
-    blob = np.full(len(h_group), -1)
-    blob[h_group >= 0] = of_half
+    cluster = np.full(len(h_group), -1)
+    cluster[h_group >= 0] = of_half
     exits = half.points[:, 0]
     member = np.flatnonzero(group >= 0)
     home = np.searchsorted(names, group[member])
@@ -84,35 +77,35 @@ def _rebuild(
         [np.bincount(home, graph.vertices[member, k], len(names)) / weight for k in (0, 1)], -1
     )
 
-    to_middle = np.hypot(*(middle[blob[stems]] - exits[stems]).T)
-    path = extend(half.points[stems], half.weights[stems], to_middle + MERGE + 1.0)
-    smooth = told_apart(found.pick(chosen).sampled(), blob[through[:, 0]], through, half, value)
+    to_middle = np.hypot(*(middle[cluster[stems]] - exits[stems]).T)
+    path = extend(half.points[stems], half.weights[stems], to_middle + LIMITS.junction_merge + 1.0)
+    smooth = told_apart(found.pick(chosen).sampled(), cluster[through[:, 0]], through, half, value)
     curves = np.concatenate([smooth, path])
-    curve_blob = np.concatenate([blob[through[:, 0]], blob[stems]]).astype(np.int64)
+    curve_cluster = np.concatenate([cluster[through[:, 0]], cluster[stems]]).astype(np.int64)
     is_stem = np.arange(len(curves)) >= len(chosen)
 
-    meetings = _meetings(curves, curve_blob, is_stem)
-    lone = _meeting_points(path, blob[stems], middle, value)
-    stops, places = _stops(meetings, curves, curve_blob, is_stem, lone)
-    active = blob >= 0
+    meetings = _meetings(curves, curve_cluster, is_stem)
+    lone = _meeting_points(path, cluster[stems], middle, value)
+    stops, places = _stops(meetings, curves, curve_cluster, is_stem, lone)
+    active = cluster >= 0
     return _assemble(graph, half, active, inner, through, stems, curves, stops, places)
 
 
 def _stars(
-    group: Array, through: Array, cost: Array, graph: PlanarGraph, half: Halves, value: Array
+    group: Array, through: Array, cost: Array, graph: PlanarGraph, half: Courses, value: Array
 ) -> Array:
-    """(K,) bool: pairs of blobs whose half-branches, straight on, all meet in one point.
+    """(K,) bool: pairs of clusters whose half-branches, straight on, all meet in one point.
 
     Where lines end together the smoothest pairs would bend around that point.
     """
-    bent = np.unique(group[through[cost > BENT, 0]])
+    bent = np.unique(group[through[cost > LIMITS.junction_bent, 0]])
     member = np.flatnonzero(np.isin(group, bent) & (group >= 0))
     if not len(member):
         return np.zeros(len(through), bool)
     home = np.searchsorted(bent, group[member])
     count = np.bincount(home)
     middle = np.stack([np.bincount(home, half.points[member, 0, k]) / count for k in (0, 1)], -1)
-    reach = np.hypot(*(middle[home] - half.points[member, 0]).T) + MERGE
+    reach = np.hypot(*(middle[home] - half.points[member, 0]).T) + LIMITS.junction_merge
     paths = extend(half.points[member], half.weights[member], reach)
     place = _meeting_points(paths, home, middle, value)
     gap = np.hypot(*np.moveaxis(paths - place[home, None], -1, 0))
@@ -124,15 +117,15 @@ def _stars(
     aside = np.abs(off[:, 0] * course[:, 1] - off[:, 1] * course[:, 0])
     worst = np.zeros(len(bent))
     np.maximum.at(worst, home, aside)
-    return np.isin(group[through[:, 0]], bent[(worst < STAR) & (count > 2)])
+    return np.isin(group[through[:, 0]], bent[(worst < LIMITS.junction_star) & (count > 2)])
 
 
-def _meetings(curves: Array, blob: Array, is_stem: Array) -> Array:
-    """Where the curves of each blob meet: (M, 5) rows of curve, curve, time, time, weight.
+def _meetings(curves: Array, cluster: Array, is_stem: Array) -> Array:
+    """Where the curves of each cluster meet: (M, 5) rows of curve, curve, time, time, weight.
 
     A time runs from 0 at the curve's first sample to SAMPLES - 1 at its last.
     """
-    pairs = pairs_within(blob)
+    pairs = pairs_within(cluster)
     pairs = pairs[~is_stem[pairs].all(1)]
     found = [np.zeros((0, 5))]
     for some in np.array_split(pairs, len(pairs) // 512 + 1):
@@ -145,7 +138,7 @@ def _meetings(curves: Array, blob: Array, is_stem: Array) -> Array:
         key = pairs[:, 0] * len(curves) + pairs[:, 1]
         crossed = np.isin(key, crossings[:, 0] * len(curves) + crossings[:, 1])
         apart = pairs[~crossed]
-        limit = np.where(is_stem[apart].any(1), STRAY, TOUCH)
+        limit = np.where(is_stem[apart].any(1), LIMITS.junction_stray, LIMITS.junction_touch)
         near, gap = _touches(curves, apart, limit)
         has_hit = np.zeros(len(curves), bool)
         has_hit[crossings[:, :2].astype(np.int64)] = True
@@ -193,34 +186,34 @@ def _touches(curves: Array, pairs: Array, limit: Array) -> tuple[Array, Array]:
     return np.concatenate(found), np.concatenate(gaps)
 
 
-def _meeting_points(paths: Array, blob: Array, middle: Array, value: Array) -> Array:
-    """(N, 2): for each blob the point nearest to all its stems, continued into it.
+def _meeting_points(paths: Array, cluster: Array, middle: Array, value: Array) -> Array:
+    """(N, 2): for each cluster the point nearest to all its stems, continued into it.
 
     A stem vouches for its side the less, the farther it had to be continued. The middle of the
-    skeleton's blob has its say too; less so at a bend, which the skeleton cuts short.
+    skeleton's cluster has its say too; less so at a bend, which the skeleton cuts short.
     """
     count, found = len(middle), middle
-    bend = np.bincount(blob, minlength=count) == 2
+    bend = np.bincount(cluster, minlength=count) == 2
     prior = np.where(bend, 1 / 5.0**2, 1.0)
     rows = np.arange(len(paths))
-    gap = np.hypot(*(paths[:, 0] - middle[blob]).T)
+    gap = np.hypot(*(paths[:, 0] - middle[cluster]).T)
     trust = 1 / (0.15**2 + (0.08 * gap) ** 2)
     for _ in range(2):
-        offset = paths - found[blob][:, None]
+        offset = paths - found[cluster][:, None]
         near = np.clip(np.hypot(offset[..., 0], offset[..., 1]).argmin(1), 1, SAMPLES - 2)
         course = paths[rows, near + 1] - paths[rows, near - 1]
         course /= np.maximum(np.hypot(*course.T), 1e-9)[:, None]
         across = trust[:, None, None] * (np.eye(2) - course[:, :, None] * course[:, None, :])
         matrix = prior[:, None, None] * np.eye(2)
-        np.add.at(matrix, blob, across)
+        np.add.at(matrix, cluster, across)
         vector = np.zeros((count, 2))
-        away = paths[rows, near] - middle[blob]
-        np.add.at(vector, blob, np.einsum("kij,kj->ki", across, away))
+        away = paths[rows, near] - middle[cluster]
+        np.add.at(vector, cluster, np.einsum("kij,kj->ki", across, away))
         found = middle + np.linalg.solve(matrix, vector[..., None])[..., 0]
     # Never leave the ink: as far towards the meeting point as the line is half as bright.
     way = np.linspace(0, 1, 9)
     light = sample(value, middle[:, None] + way[:, None] * (found - middle)[:, None])
-    dark = light < 0.5 * light[:, :1]
+    dark = light < LIMITS.junction_ink * light[:, :1]
     reach = np.where(dark.any(1), way[np.maximum(dark.argmax(1) - 1, 0)], 1.0)
     return middle + reach[:, None] * (found - middle)
 
@@ -233,13 +226,13 @@ def _at(curves: Array, curve: Array, time: Array) -> Array:
 
 
 def _stops(
-    meetings: Array, curves: Array, blob: Array, is_stem: Array, lone: Array
+    meetings: Array, curves: Array, cluster: Array, is_stem: Array, lone: Array
 ) -> tuple[Array, Array]:
     """Merge meetings to junctions: stops (S, 3) of curve, junction, time; places (J, 2)."""
     curve = meetings[:, :2].astype(np.int64)
     here = (_at(curves, curve[:, 0], meetings[:, 2]) + _at(curves, curve[:, 1], meetings[:, 3])) / 2
-    pairs = pairs_within(blob[curve[:, 0]]) if len(meetings) else np.zeros((0, 2), np.int64)
-    close = np.hypot(*(here[pairs[:, 0]] - here[pairs[:, 1]]).T) < MERGE
+    pairs = pairs_within(cluster[curve[:, 0]]) if len(meetings) else np.zeros((0, 2), np.int64)
+    close = np.hypot(*(here[pairs[:, 0]] - here[pairs[:, 1]]).T) < LIMITS.junction_merge
     label = connected(len(meetings), pairs[close])
     names, junction = np.unique(label, return_inverse=True)
     weight = np.bincount(junction, meetings[:, 4], len(names))
@@ -247,8 +240,8 @@ def _stops(
         [np.bincount(junction, meetings[:, 4] * here[:, k], len(names)) / weight for k in (0, 1)],
         -1,
     )
-    junction_blob = np.zeros(len(names), np.int64)
-    junction_blob[junction] = blob[curve[:, 0]]
+    junction_cluster = np.zeros(len(names), np.int64)
+    junction_cluster[junction] = cluster[curve[:, 0]]
     stops = np.concatenate(
         [np.stack([curve[:, k], junction, meetings[:, 2 + k]], -1) for k in (0, 1)]
     )
@@ -257,17 +250,17 @@ def _stops(
     mean = np.bincount(same, stops[:, 2], len(keys)) / np.maximum(np.bincount(same), 1)
     stops = np.stack([keys // (len(names) + 1), keys % (len(names) + 1), mean], -1)
 
-    # Stems that hit nothing end at their blob's nearest junction, or all together at a lone one.
+    # Stems that hit nothing end at their cluster's nearest junction, or all together at a lone one.
     hit = np.zeros(len(curves), bool)
     hit[stops[:, 0].astype(np.int64)] = True
     lost = np.flatnonzero(is_stem & ~hit)
     if len(lost):
         first = np.full(len(lone), -1)
-        first[junction_blob[::-1]] = np.arange(len(names))[::-1]
-        need = np.unique(blob[lost][first[blob[lost]] < 0])
+        first[junction_cluster[::-1]] = np.arange(len(names))[::-1]
+        need = np.unique(cluster[lost][first[cluster[lost]] < 0])
         first[need] = len(names) + np.arange(len(need))
         places = np.concatenate([places, lone[need]])
-        to = first[blob[lost]]
+        to = first[cluster[lost]]
         gap = curves[lost] - places[to][:, None]
         time = np.maximum(np.hypot(gap[..., 0], gap[..., 1]).argmin(1), 0.5)
         stops = np.concatenate([stops, np.stack([lost, to, time], -1)])
@@ -276,7 +269,7 @@ def _stops(
 
 def _assemble(
     graph: PlanarGraph,
-    half: Halves,
+    half: Courses,
     active: Array,
     inner: Array,
     through: Array,
@@ -285,7 +278,7 @@ def _assemble(
     stops: Array,
     places: Array,
 ) -> PlanarGraph:
-    """The graph with every blob replaced: branches cut at their exits, and the pieces of curves."""
+    """The graph with every cluster replaced: branches cut at their exits, then pieces of curves."""
     # Vertices: the old ones, then the exits (by their point), then the junctions.
     exit_point, exit_vertex = np.unique(half.exit, return_inverse=True)
     old = len(graph.vertices)
@@ -299,9 +292,7 @@ def _assemble(
     begin, end = cut.reshape(-1, 2).T.astype(np.int64)
     kept = ~inner & (end > begin)
     counts = (end - begin + 1)[kept]
-    total = np.concatenate([[0], np.cumsum(counts)])
-    take = np.arange(total[-1]) - np.repeat(total[:-1], counts) + np.repeat(begin[kept], counts)
-    branch_points = graph.points[take]
+    branch_points = graph.points[ranges(begin[kept], counts)]
     branch_ends = exit_vertex.reshape(-1, 2)[kept]
 
     # Every curve: its first exit, its stops, and (a through-curve) its second exit.
@@ -318,10 +309,26 @@ def _assemble(
     )
     rank = np.concatenate([np.zeros(len(curves)), np.full(len(through), 2.0), np.ones(len(stops))])
     order = np.lexsort((time, rank, curve))
-    curve, time, node = curve[order].astype(np.int64), time[order], node[order]
+    pieces = _pieces(curves, vertices, curve[order].astype(np.int64), time[order], node[order])
+    result = PlanarGraph(
+        vertices.astype(np.float32),
+        np.concatenate([branch_points, pieces[0]]).astype(np.float32),
+        offsets_of(np.concatenate([counts, pieces[1]])).astype(np.int32),
+        np.concatenate([branch_ends, pieces[2]]).astype(np.int32),
+    )
+    return join(result, hold=np.arange(len(vertices)) >= first_junction)
+
+
+def _pieces(
+    curves: Array, vertices: Array, curve: Array, time: Array, node: Array
+) -> tuple[Array, Array, Array]:
+    """The curves cut at their stops (S,), each piece bent so that it ends on its vertices.
+
+    Returns:
+        Points (P, 2), how many each piece has, and the (K, 2) vertices that it links.
+    """
     shift = vertices[node] - _at(curves, curve, time)
     piece = np.flatnonzero(curve[1:] == curve[:-1])
-
     t = np.arange(SAMPLES)
     t0, t1 = time[piece, None], time[piece + 1, None]
     inside = (t > t0 + 0.25) & (t < t1 - 0.25)
@@ -331,14 +338,4 @@ def _assemble(
     rows = np.concatenate([vertices[node[piece], None], body, vertices[node[piece + 1], None]], 1)
     yes = np.ones((len(piece), 1), bool)
     mask = np.concatenate([yes, inside, yes], 1)
-
-    result = PlanarGraph(
-        vertices.astype(np.float32),
-        np.concatenate([branch_points, rows[mask]]).astype(np.float32),
-        np.concatenate([[0], np.cumsum(np.concatenate([counts, mask.sum(1)]))]).astype(np.int32),
-        np.concatenate([branch_ends, np.stack([node[piece], node[piece + 1]], -1)]).astype(
-            np.int32
-        ),
-    )
-    hold = np.arange(len(vertices)) >= first_junction
-    return join(result, hold)
+    return rows[mask], mask.sum(1), np.stack([node[piece], node[piece + 1]], -1)

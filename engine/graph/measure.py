@@ -7,34 +7,36 @@ from dataclasses import replace
 import numpy as np
 
 from ..arrays.sampling import sample
-from ..values import LineMaps, PlanarGraph, Scan
-
-Array = np.ndarray
+from ..settings import Settings
+from ..values import Array, PlanarGraph, Scan
+from .evidence import Evidence
+from .limits import LIMITS
+from .topology import lengths
 
 _STEP = 0.5  # px between the samples across a line
-_ALONG = 4  # points on either side that agree on a width
+_DOT = 1.0  # px; a shorter branch is a dot, as `skeleton_graph` makes them
 
 
-def measure(graph: PlanarGraph, scan: Scan, maps: LineMaps) -> PlanarGraph:
-    """Fill in what the ink says along a graph.
+def measure(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> PlanarGraph:
+    """Fill in what the ink says along a graph; one that is measured stays as it is.
 
-    Args:
-        graph: its points about 1 px apart.
-        scan: the page it was traced on.
-        maps: its half_width, where there is one, is taken for the widths.
-
-    Returns:
-        The graph with widths (full width of the line, px), strength in [0, 1], and colors, which
-        are None on a grey page.
+    Reads: the scan, and the map of half widths where there is one; points about 1 px apart.
+    Promises: widths (of the whole line, px), strength in [0, 1], and colors, None on a grey page.
     """
-    if graph.branch_count == 0:
+    scan, maps = evidence.scan, evidence.maps
+    if graph.branch_count == 0 or graph.widths is not None or scan is None:
         return graph
     if maps.half_width is not None:
         widths = 2 * sample(maps.half_width, graph.points)
+        # Of a dot the network sees half; nothing where another provider has seen the line.
+        dot = np.repeat(lengths(graph) < _DOT, np.diff(graph.offsets))
+        unknown = np.isnan(widths) | dot
+        if unknown.any():
+            widths = np.where(unknown, _widths(graph, scan), widths)
     else:
         widths = _widths(graph, scan)
     widths = np.where(np.isfinite(widths) & (widths > 0), widths, scan.pen_width)
-    widths = np.clip(_agreed(graph, widths), 0.5, max(8 * scan.pen_width, 8.0))
+    widths = np.clip(_agreed(graph, widths), 0.5, max(LIMITS.width_widest * scan.pen_width, 8.0))
     strength = np.clip(_agreed(graph, sample(scan.ink, graph.points)), 0.0, 1.0)
     colors = None
     if scan.color is not None:
@@ -82,5 +84,5 @@ def _agreed(graph: PlanarGraph, values: Array) -> Array:
     index = np.arange(len(graph.points))[:, None]
     first = np.repeat(graph.offsets[:-1], count)[:, None]
     last = np.repeat(graph.offsets[1:] - 1, count)[:, None]
-    window = np.clip(index + np.arange(-_ALONG, _ALONG + 1), first, last)
+    window = np.clip(index + np.arange(-LIMITS.width_agreed, LIMITS.width_agreed + 1), first, last)
     return np.median(values[window], axis=1)

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..values import Array
 from .continuations import pairs_within
-
-Array = np.ndarray
 
 
 def near_pairs(points: Array, reach: float) -> Array:

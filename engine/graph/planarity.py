@@ -1,7 +1,7 @@
 """Branches cross in vertices only: the last step, which makes the graph planar but for a few.
 
-Every blob is resolved on its own, so the curves through two blobs a few pixels apart may cross each
-other, and smoothing may push one line over its neighbour. Each such crossing becomes a vertex,
+Every cluster is resolved on its own, so the curves through two of them a few pixels apart may cross
+each other, and smoothing may push one line over its neighbour. Each such crossing becomes a vertex,
 unless it lies beside one that both branches share.
 """
 
@@ -9,27 +9,27 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..values import PlanarGraph
+from ..arrays.ragged import owners
+from ..settings import Settings
+from ..values import Array, PlanarGraph
 from .courses import spoilt
+from .evidence import Evidence
+from .limits import LIMITS
 from .nearby import near_pairs
 from .topology import join
 
-Array = np.ndarray
-
-_SAME = 1.0  # px; a crossing this near to a vertex of both branches is that vertex
 _WITHIN = 1e-4  # of a segment at its ends that count as outside
 
 
-def planarized(graph: PlanarGraph, shape: tuple[int, int]) -> PlanarGraph:
+def planarize(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> PlanarGraph:
     """The graph with a vertex wherever two of its branches cross.
 
-    Args:
-        graph: points at most about 1 px apart.
-        shape: (H, W) of the page.
+    Reads: the size of the page; points at most about 1 px apart.
+    Promises: planar, but for crossings a pixel beside a vertex that both branches share.
     """
     if graph.branch_count < 2:
         return graph
-    first, second, part, other, places = _crossings(graph, shape)
+    first, second, part, other, places = _crossings(graph, evidence.shape)
     if not len(places):
         return graph
     vertex = len(graph.vertices) + np.arange(len(places))
@@ -66,7 +66,7 @@ def _crossings(graph: PlanarGraph, shape: tuple[int, int]) -> tuple[Array, ...]:
     close = np.flatnonzero(spoilt(graph, shape, 2.0) & ~last)
     points = graph.points.astype(np.float64)
     i, j = close[near_pairs((points[close] + points[close + 1]) / 2, 2.0)].T
-    branch = np.repeat(np.arange(graph.branch_count), np.diff(graph.offsets))
+    branch = owners(graph.offsets)
     apart = branch[i] != branch[j]
     i, j = i[apart], j[apart]
     p, d, q, e = points[i], points[i + 1] - points[i], points[j], points[j + 1] - points[j]
@@ -80,5 +80,5 @@ def _crossings(graph: PlanarGraph, shape: tuple[int, int]) -> tuple[Array, ...]:
     one, two = graph.ends[branch[i]], graph.ends[branch[j]]
     shared = (one[:, :, None] == two[:, None]).any(2)
     gap = np.linalg.norm(graph.vertices[one] - places[:, None], axis=-1)
-    new = ~(shared & (gap < _SAME)).any(1)
+    new = ~(shared & (gap < LIMITS.crossing_same)).any(1)
     return i[new], j[new], s[new], t[new], places[new]

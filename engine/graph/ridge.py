@@ -14,12 +14,9 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
-Array = np.ndarray
+from ..values import Array
+from .limits import LIMITS
 
-SIGMA = 0.8  # px; 0.7 to 0.9 separates parallels 2.5 px apart and still averages pixel noise
-FAINT = 0.1  # a line may fade to this probability ...
-CLEAR = 0.33  # ... when it reaches this one somewhere (25 and 85 of 255 in the paper)
-PEAK = 0.6  # what smoothing leaves of the crest of a line
 BAND = 512  # rows whose derivatives are held at a time, so that large pages need little memory
 
 
@@ -35,8 +32,9 @@ class Ridge:
     _kernels: tuple[Array, Array, Array]
 
     @staticmethod
-    def of(centerline: Array, sigma: float = SIGMA) -> Ridge:
-        """The ridges of a centerline map (H, W) at scale sigma (px)."""
+    def of(centerline: Array) -> Ridge:
+        """The ridges of a centerline map (H, W)."""
+        sigma = LIMITS.ridge_sigma
         image = np.ascontiguousarray(centerline, np.float32)
         radius = int(np.ceil(4 * sigma))
         x = np.arange(-radius, radius + 1, dtype=np.float64)
@@ -70,21 +68,21 @@ class Ridge:
         """(H, W) uint8, 255 where a line may run: bright enough, and not a valley or a skirt."""
         mask = np.zeros(self.value.shape, np.uint8)
         for top in range(0, len(mask), BAND):
-            bright = self.value[top : top + BAND] > FAINT
+            bright = self.value[top : top + BAND] > LIMITS.ridge_faint
             if bright.any():
                 rows, columns = np.nonzero(bright)
                 second = self._curvatures(top, top + len(bright))
                 dxx, dxy, dyy = (a[rows, columns] for a in second)
                 mean, spread = (dxx + dyy) / 2, np.hypot((dxx - dyy) / 2, dxy)
                 # Curved upwards more than downwards = beside a line or between two of them.
-                inside = ~((mean > 0) & (mean + spread > 0.02))
+                inside = ~((mean > 0) & (mean + spread > LIMITS.ridge_valley))
                 mask[top + rows[inside], columns[inside]] = 255
         # Drop what is faint all over.
         rows, columns = np.nonzero(mask)
         count, labels = cv2.connectedComponents(mask, connectivity=8, ltype=cv2.CV_32S)
         label = labels[rows, columns]
         keep = np.zeros(count, bool)
-        keep[label[self.value[rows, columns] >= CLEAR * PEAK]] = True
+        keep[label[self.value[rows, columns] >= LIMITS.ridge_clear * LIMITS.ridge_peak]] = True
         faint = ~keep[label]
         mask[rows[faint], columns[faint]] = 0
         return mask

@@ -14,36 +14,30 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..arrays.sampling import sample
+from ..values import Array
 from .continuations import FADE, SAMPLES, pairs_within
-from .courses import Halves
+from .courses import Courses
+from .limits import LIMITS
 
-Array = np.ndarray
-
-NEAR = 1.6  # px; curves that come nearer are one ridge there
-SHALLOW = np.cos(np.radians(40.0))  # steeper ones have a clear ridge right up to their crossing
-BLUR = 0.9  # px, standard deviation: of the scanned line and of the map's smoothing together
 STATIONS = 24  # places along both curves at which the map is compared
 ACROSS = np.linspace(-2.1, 2.1, 7)  # px to both sides of each curve
-BEYOND = 10.0  # px outside the exits that are looked at as well
-ROUNDS = 5
-HUBER = 0.06  # of the map's brightness; larger differences are something else
-FARTHEST = 1.5  # px; a curve that would move more than this was not understood
+ROUNDS = 5  # of Gauss and Newton; the last ones move nothing any more
 HOLD = 1e-3  # how strongly the coefficients are held at what the outside says
-CHUNK = 128
+CHUNK = 128  # pairs fitted at a time, so that they need little memory
 _POWERS = np.arange(4)
 
 
-def told_apart(curves: Array, blob: Array, through: Array, half: Halves, value: Array) -> Array:
-    """Curves (C, SAMPLES, 2) through blobs, those of close pairs fitted to the map.
+def told_apart(curves: Array, cluster: Array, through: Array, half: Courses, value: Array) -> Array:
+    """Curves (C, SAMPLES, 2) through clusters, those of close pairs fitted to the map.
 
     Args:
-        curves: points from exit to exit, px; blob: (C,) the blob of each.
+        curves: points from exit to exit, px; cluster: (C,) the cluster of each.
         through: (C, 2) the half-branches that each one joins.
         half: the course of all half-branches.
         value: (H, W) the smoothed centerline map.
     """
     curves = curves.copy()
-    pairs = _close_pairs(curves, blob)
+    pairs = _close_pairs(curves, cluster)
     if not len(pairs):
         return curves
     for part in np.array_split(pairs, len(pairs) // CHUNK + 1):
@@ -52,9 +46,9 @@ def told_apart(curves: Array, blob: Array, through: Array, half: Halves, value: 
     return curves
 
 
-def _close_pairs(curves: Array, blob: Array) -> Array:
-    """(K, 2) pairs of one blob that are one ridge somewhere; every curve is in one at most."""
-    pairs = pairs_within(blob)
+def _close_pairs(curves: Array, cluster: Array) -> Array:
+    """(K, 2) pairs of one cluster that are one ridge somewhere; every curve is in one at most."""
+    pairs = pairs_within(cluster)
     if not len(pairs):
         return pairs
     way = np.gradient(curves, axis=1)
@@ -65,7 +59,9 @@ def _close_pairs(curves: Array, blob: Array) -> Array:
         gap = np.hypot(gap[..., 0], gap[..., 1]).reshape(len(some), -1)
         i, j = np.divmod(gap.argmin(1), SAMPLES)
         turn = np.abs((way[some[:, 0], i] * way[some[:, 1], j]).sum(-1))
-        close = (gap.min(1) < NEAR) & (turn > SHALLOW)
+        close = (gap.min(1) < LIMITS.shared_near) & (
+            turn > np.cos(np.radians(LIMITS.shared_shallow))
+        )
         found.append(some[close])
         cosine.append(turn[close])
     pairs = np.concatenate(found)[np.argsort(-np.concatenate(cosine), kind="stable")]
@@ -109,7 +105,7 @@ class _Frame:
         )
 
 
-def _fitted(curves: Array, through: Array, half: Halves, value: Array) -> tuple[Array, Array]:
+def _fitted(curves: Array, through: Array, half: Courses, value: Array) -> tuple[Array, Array]:
     """Pairs of curves (K, 2, SAMPLES, 2) fitted to the map, and which fits (K,) can be trusted."""
     chord = curves[:, :, -1] - curves[:, :, 0]
     against = (chord[:, 0] * chord[:, 1]).sum(-1) < 0
@@ -117,7 +113,7 @@ def _fitted(curves: Array, through: Array, half: Halves, value: Array) -> tuple[
     curves[against, 1], through[against, 1] = curves[against, 1, ::-1], through[against, 1, ::-1]
     outside = half.points[through]  # (K, 2 curves, 2 ends, WINDOW, 2)
     weights = half.weights[through]
-    reach = np.clip((weights > 0).sum(-1) - 1.0, 0, BEYOND)  # points, about a px each
+    reach = np.clip((weights > 0).sum(-1) - 1.0, 0, LIMITS.shared_beyond)  # points, about a px each
     frame = _frame(curves, reach)
     weights = 0.3 * weights * (np.arange(weights.shape[-1]) <= reach[..., None])
     start = _cubics(frame, curves, outside, weights)
@@ -177,7 +173,7 @@ def _solved(frame: _Frame, start: Array, wide: Array, value: Array) -> tuple[Arr
     for _ in range(ROUNDS):
         model, by_line = _picture(heights, (fit @ basis.T).astype(np.float32), wide, lean)
         off = model - seen
-        robust = np.minimum(1.0, HUBER / np.maximum(np.abs(off), 1e-9))
+        robust = np.minimum(1.0, LIMITS.shared_huber / np.maximum(np.abs(off), 1e-9))
         costs.append((robust * off**2).mean((1, 2, 3)))
         gradient = np.einsum("klcsa,kcsa,si->kli", by_line, robust * off, basis)
         curvature = np.einsum("klcsa,kcsa,kmcsa->klms", by_line, robust, by_line)
@@ -187,7 +183,7 @@ def _solved(frame: _Frame, start: Array, wide: Array, value: Array) -> tuple[Arr
         step = np.linalg.solve(matrix / size + HOLD * np.eye(8), gradient)
         fit = fit - step.reshape(fit.shape)
     moved = np.abs((fit - start) @ basis.T).max((1, 2))
-    return fit, (costs[-1] < costs[0]) & (moved < FARTHEST)
+    return fit, (costs[-1] < costs[0]) & (moved < LIMITS.shared_farthest)
 
 
 def _picture(at: Array, course: Array, wide: Array, lean: Array) -> tuple[Array, Array]:
@@ -216,19 +212,18 @@ def _picture(at: Array, course: Array, wide: Array, lean: Array) -> tuple[Array,
 
 def _step(x: Array) -> Array:
     """A blurred step (the normal distribution to a thousandth)."""
-    z = x / BLUR
+    z = x / LIMITS.shared_blur
     return 0.5 + 0.5 * np.tanh(z * (0.79788456 + 0.03567741 * z * z))
 
 
 def _bell(x: Array) -> Array:
-    z = x / BLUR
-    return np.exp(-0.5 * z * z) / (BLUR * 2.50662827)
+    z = x / LIMITS.shared_blur
+    return np.exp(-0.5 * z * z) / (LIMITS.shared_blur * 2.50662827)
 
 
-_WIDTHS = np.linspace(0.2, 4.0, 77)
-_LEVELS = _step(_WIDTHS / 2) - _step(-_WIDTHS / 2)
+_WIDTHS = np.linspace(0.2, 4.0, 77)  # px; of strips whose brightness is known
 
 
 def _strip(level: Array) -> Array:
     """Width in px of the strip that, blurred, is this bright in its middle."""
-    return np.interp(level, _LEVELS, _WIDTHS)
+    return np.interp(level, _step(_WIDTHS / 2) - _step(-_WIDTHS / 2), _WIDTHS)

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
+from ..arrays.ragged import offsets_of, owners
+from ..values import Array
 from .chains import follow
-
-Array = np.ndarray
 
 # The 8 neighbours (row, column): right, down, left, up, then the diagonals between them.
 _STEPS = np.array([(0, 1), (1, 0), (0, -1), (-1, 0), (1, 1), (1, -1), (-1, -1), (-1, 1)])
@@ -67,9 +67,9 @@ def trace(skeleton: Array) -> Chains:
     edges, edge_offsets = follow(source, index[target, opposite], degree != 2)
     # A chain of k edges has k + 1 pixels: the sources of its edges, then the last target.
     counts = np.diff(edge_offsets)
-    offsets = np.concatenate([[0], np.cumsum(counts + 1)]).astype(np.int32)
+    offsets = offsets_of(counts + 1).astype(np.int32)
     pixels = np.empty(offsets[-1], np.int32)
-    chain = np.repeat(np.arange(len(counts)), counts)
+    chain = owners(edge_offsets)
     pixels[np.arange(len(edges)) + chain] = source[edges]
     pixels[offsets[1:] - 1] = target[edges[edge_offsets[1:] - 1]]
 

@@ -11,11 +11,31 @@ from dataclasses import replace
 
 import numpy as np
 
+from ..arrays.ragged import offsets_of, owners, steps
+from ..settings import Settings
 from ..values import PlanarGraph
-
-Array = np.ndarray
+from .evidence import Evidence
+from .limits import LIMITS
 
 _PARABOLA = np.array([-3, 12, 17, 12, -3]) / 35
+
+
+def space_points(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> PlanarGraph:
+    """Even points along every branch.
+
+    Reads: nothing but the graph.
+    Promises: points 1 px apart.
+    """
+    return even(graph)
+
+
+def smooth_lines(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> PlanarGraph:
+    """Smooth every branch as much as the settings ask for; vertices stay.
+
+    Reads: Settings.smoothing.
+    Promises: points 1 px apart.
+    """
+    return even(smooth(even(graph), round(LIMITS.smooth_rounds * settings.smoothing)))
 
 
 def even(graph: PlanarGraph, spacing: float = 1.0) -> PlanarGraph:
@@ -23,17 +43,15 @@ def even(graph: PlanarGraph, spacing: float = 1.0) -> PlanarGraph:
     if graph.branch_count == 0:
         return graph
     points = graph.points.astype(np.float64)
-    step = np.hypot(*np.diff(points, axis=0, prepend=points[:1]).T)
-    step[graph.offsets[:-1]] = 0.0
-    arc = np.cumsum(step)
+    arc = np.cumsum(steps(points, graph.offsets))
     starts, stops = arc[graph.offsets[:-1]], arc[graph.offsets[1:] - 1]
     count = np.maximum(np.rint((stops - starts) / spacing).astype(np.int64), 1) + 1
-    offsets = np.concatenate([[0], np.cumsum(count)])
-    branch = np.repeat(np.arange(len(count)), count)
+    offsets = offsets_of(count)
+    branch = owners(offsets)
     part = (np.arange(offsets[-1]) - offsets[branch]) / (count - 1)[branch]
     # Branches follow each other on one arc; one unit between them keeps them apart.
     at = starts[branch] * (1 - part) + stops[branch] * part + branch
-    arc = arc + np.repeat(np.arange(len(count)), np.diff(graph.offsets))
+    arc = arc + owners(graph.offsets)
     points = np.stack([np.interp(at, arc, points[:, k]) for k in (0, 1)], -1)
     return _pinned(replace(graph, points=points, offsets=offsets.astype(np.int32)))
 

@@ -12,31 +12,29 @@ from dataclasses import replace
 
 import numpy as np
 
+from ..settings import Settings
 from ..values import PlanarGraph
 from .continuations import ALONE, Continuations
-from .courses import read_halves
+from .courses import read_courses
+from .evidence import Evidence
+from .limits import LIMITS
 from .topology import lengths, select
 
-Array = np.ndarray
-
 SPAN = 5  # points on either side that tell the angle of a bend
-SHARP = np.cos(np.radians(50.0))
-SMALL_RING = 40  # points
-LONGEST = 24.0  # px; stem of a V that is a tip
 
 
-def open_tips(graph: PlanarGraph, value: Array, pen: float) -> PlanarGraph:
+def open_tips(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> PlanarGraph:
     """Take away the stems of Vs: both lines really run on to the tip.
 
-    Args:
-        graph: the skeleton's graph.
-        value: (H, W) the smoothed centerline map.
-        pen: width of the ridge, px.
+    Reads: the smoothed centerline map; points on the crest of the lines.
+    Promises: tips are vertices of degree two, to be resolved like junctions.
     """
     vertex, degree = graph.half_vertex, graph.degrees
     long = np.repeat(lengths(graph), 2)
     stem = np.flatnonzero(
-        (degree[vertex] == 3) & (degree[vertex[np.arange(len(vertex)) ^ 1]] == 1) & (long < LONGEST)
+        (degree[vertex] == 3)
+        & (degree[vertex[np.arange(len(vertex)) ^ 1]] == 1)
+        & (long < LIMITS.tip_longest)
     )
     # A junction with several stems is no V.
     once = np.bincount(vertex[stem], minlength=len(degree)) == 1
@@ -46,15 +44,19 @@ def open_tips(graph: PlanarGraph, value: Array, pen: float) -> PlanarGraph:
     order, start = graph.halves_at
     three = order[start[vertex[stem]][:, None] + np.arange(3)]
     arms = three[three != stem[:, None]].reshape(-1, 2)
-    half = read_halves(graph, value, pen)
-    fits = Continuations(half, value)
+    half = read_courses(graph, evidence)
+    fits = Continuations(half, evidence.value)
     along = np.maximum(*(fits.of(np.stack([arms[:, k], stem], -1)).cost for k in (0, 1)))
     across = fits.of(arms).cost
     # How long two lines overlap depends on how fast they part.
     parting = np.hypot(
         *(half.points[arms, 0] - graph.vertices[vertex[stem]][:, None]).transpose(2, 0, 1)
     )
-    tip = (along < 2 * ALONE) & (across > 2 * ALONE) & (long[stem] < 3.5 * parting.max(1) + 2.0)
+    tip = (
+        (along < 2 * ALONE)
+        & (across > 2 * ALONE)
+        & (long[stem] < LIMITS.tip_overlap * parting.max(1) + 2.0)
+    )
     stem = stem[tip]
     # The fork moves to the tip; its arms follow when it is resolved.
     vertices, points = graph.vertices.copy(), graph.points.copy()
@@ -66,14 +68,18 @@ def open_tips(graph: PlanarGraph, value: Array, pen: float) -> PlanarGraph:
     return select(replace(graph, vertices=vertices, points=points), keep)
 
 
-def split_bends(graph: PlanarGraph) -> PlanarGraph:
-    """Cut branches where they bend sharply; the new vertices have degree two."""
+def split_bends(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> PlanarGraph:
+    """Cut branches where they bend sharply.
+
+    Reads: nothing but the graph; points about 1 px apart.
+    Promises: bends are vertices of degree two, to be resolved like junctions.
+    """
     points = graph.points.astype(np.float64)
     count = np.diff(graph.offsets)
     index = np.arange(len(points))
     first, last = np.repeat(graph.offsets[:-1], count), np.repeat(graph.offsets[1:] - 1, count)
     # A small circle turns everywhere, and has no bend.
-    ring = (graph.ends[:, 0] == graph.ends[:, 1]) & (count < SMALL_RING)
+    ring = (graph.ends[:, 0] == graph.ends[:, 1]) & (count < LIMITS.bend_ring)
     room = (index - first >= SPAN) & (last - index >= SPAN) & ~np.repeat(ring, count)
     room = np.flatnonzero(room)
     if not len(room):
@@ -88,13 +94,15 @@ def split_bends(graph: PlanarGraph) -> PlanarGraph:
     goes = points[room + SPAN // 2] - points[room]
     size = np.hypot(*came.T) * np.hypot(*goes.T)
     at_once = np.arccos(np.clip((came * goes).sum(1) / np.maximum(size, 1e-9), -1, 1))
-    round_off = at_once < 0.45 * np.arccos(np.clip(cosine[room], -1, 1))
+    round_off = at_once < LIMITS.bend_at_once * np.arccos(np.clip(cosine[room], -1, 1))
     cosine[room[round_off]] = 1.0
     # Only the sharpest point of every bend.
     near = np.lib.stride_tricks.sliding_window_view(
         np.pad(cosine, SPAN, constant_values=1.0), 2 * SPAN + 1
     )
-    sharp = np.flatnonzero((cosine < SHARP) & (near.argmin(1) == SPAN))
+    sharp = np.flatnonzero(
+        (cosine < np.cos(np.radians(LIMITS.bend_sharp))) & (near.argmin(1) == SPAN)
+    )
     if not len(sharp):
         return graph
     fresh = len(graph.vertices) + np.arange(len(sharp))

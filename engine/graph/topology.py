@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..values import PlanarGraph
+from ..arrays.ragged import count_up, offsets_of, steps
+from ..settings import Settings
+from ..values import Array, PlanarGraph
 from .chains import follow
-
-Array = np.ndarray
+from .evidence import Evidence
 
 
 def select(graph: PlanarGraph, keep: Array) -> PlanarGraph:
@@ -22,10 +23,19 @@ def select(graph: PlanarGraph, keep: Array) -> PlanarGraph:
     return PlanarGraph(
         graph.vertices[used],
         graph.points[stays],
-        np.concatenate([[0], np.cumsum(counts[keep])]).astype(np.int32),
+        offsets_of(counts[keep]).astype(np.int32),
         number[ends].astype(np.int32).reshape(-1, 2),
         *(None if values is None else values[stays] for values in measured),
     )
+
+
+def join_bends(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> PlanarGraph:
+    """Make one branch of those that meet at a bend or where a gap was bridged.
+
+    Reads: nothing but the graph.
+    Promises: vertices are ends, junctions, and one on every ring.
+    """
+    return join(graph)
 
 
 def join(graph: PlanarGraph, hold: Array | None = None) -> PlanarGraph:
@@ -33,8 +43,13 @@ def join(graph: PlanarGraph, hold: Array | None = None) -> PlanarGraph:
 
     hold: (V,) bool, vertices that stay all the same.
     """
+    return joined(graph, hold)[0]
+
+
+def joined(graph: PlanarGraph, hold: Array | None = None) -> tuple[PlanarGraph, Array]:
+    """What `join` makes, and (2B,) int32 which old half-branch each of its half-branches was."""
     if graph.branch_count == 0:
-        return PlanarGraph.empty()
+        return PlanarGraph.empty(), np.zeros(0, np.int32)
     halves = np.arange(2 * graph.branch_count)
     stop = graph.degrees != 2
     if hold is not None:
@@ -46,35 +61,21 @@ def join(graph: PlanarGraph, hold: Array | None = None) -> PlanarGraph:
     last = np.zeros(len(order), bool)
     last[bounds[1:] - 1] = True
     taken = counts - ~last
-    total = np.concatenate([[0], np.cumsum(taken)])
-    within = np.arange(total[-1]) - np.repeat(total[:-1], taken)
+    total, within = offsets_of(taken), count_up(taken)
     start = np.where(flipped, graph.offsets[branch + 1] - 1, graph.offsets[branch])
     step = np.where(flipped, -1, 1)
-    points = graph.points[np.repeat(start, taken) + np.repeat(step, taken) * within]
-    ends = np.stack(
-        [graph.half_vertex[order[bounds[:-1]]], graph.half_vertex[order[bounds[1:] - 1] ^ 1]], -1
+    index = np.repeat(start, taken) + np.repeat(step, taken) * within
+    halves = np.stack([order[bounds[:-1]], order[bounds[1:] - 1] ^ 1], -1).astype(np.int32)
+    ends = graph.half_vertex[halves]
+    measured = (graph.widths, graph.strength, graph.colors)
+    whole = PlanarGraph(
+        graph.vertices,
+        graph.points[index],
+        total[bounds].astype(np.int32),
+        ends.astype(np.int32),
+        *(None if values is None else values[index] for values in measured),
     )
-    joined = PlanarGraph(
-        graph.vertices, points, total[bounds].astype(np.int32), ends.astype(np.int32)
-    )
-    return select(joined, np.ones(joined.branch_count, bool))
-
-
-def contract(graph: PlanarGraph, shortest: float) -> PlanarGraph:
-    """Make one vertex of those that branches shorter than `shortest` px link, and drop these."""
-    link = (lengths(graph) < shortest) & (graph.degrees[graph.ends] >= 3).all(1)
-    if not link.any():
-        return graph
-    label = connected(len(graph.vertices), graph.ends[link])
-    count = np.maximum(np.bincount(label, minlength=len(label)), 1)
-    vertices = np.stack(
-        [np.bincount(label, graph.vertices[:, k], len(label)) / count for k in (0, 1)], -1
-    ).astype(np.float32)
-    ends = label[graph.ends]
-    points = graph.points.copy()
-    points[graph.offsets[:-1]] = vertices[ends[:, 0]]
-    points[graph.offsets[1:] - 1] = vertices[ends[:, 1]]
-    return join(select(PlanarGraph(vertices, points, graph.offsets, ends), ~link))
+    return select(whole, np.ones(whole.branch_count, bool)), halves.reshape(-1)
 
 
 def connected(count: int, links: Array) -> Array:
@@ -95,11 +96,18 @@ def lengths(graph: PlanarGraph) -> Array:
     """(B,) float64: arc length of every branch in px."""
     if graph.branch_count == 0:
         return np.zeros(0)
-    steps = np.hypot(*np.diff(graph.points.astype(np.float64), axis=0, append=0).T)
-    steps[graph.offsets[1:] - 1] = 0.0
-    return np.add.reduceat(steps, graph.offsets[:-1])
+    return np.add.reduceat(steps(graph.points, graph.offsets), graph.offsets[:-1])
 
 
 def means(graph: PlanarGraph, values: Array) -> Array:
     """(B,) the mean of (P,) values on each branch."""
     return np.add.reduceat(values.astype(np.float64), graph.offsets[:-1]) / np.diff(graph.offsets)
+
+
+def rank_at_vertex(vertex: Array, degree: Array, worth: Array) -> Array:
+    """(H,) how many half-branches at the same vertex are worth more."""
+    order = np.lexsort((-worth, vertex))
+    start = np.cumsum(degree) - degree
+    rank = np.empty(len(order), np.int64)
+    rank[order] = np.arange(len(order)) - start[vertex[order]]
+    return rank

@@ -9,16 +9,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..values import PlanarGraph
+from ..values import Array, PlanarGraph
+from .hue_peaks import hue_peaks, turn
 from .pencil import pencil
-from .tint import NEUTRAL, branch_colors, tint
+from .tint import NEUTRAL, branch_colors, chroma_and_hue, tint
 
-Array = np.ndarray
 Color = tuple[int, int, int]
 
 _BLACK = 110.0  # grey value below which a neutral ink is simply black
 _PENCIL = (130.0, 190.0)  # grey values of pencil under ink, so that it looks like that
-_HUES = 36  # bins round the colour circle
 _SMALLEST = 8.0  # pen widths of line that an ink of its own must have
 
 
@@ -67,27 +66,14 @@ def _colored(graph: PlanarGraph, weight: Array, pen: float) -> tuple[list[Color]
     if graph.colors is None:
         return [(0, 0, 0)], ink
     color = branch_colors(graph)
-    across = tint(color)
-    chroma, hue = np.hypot(*across.T), np.arctan2(across[:, 1], across[:, 0])
-    peaks = _hue_peaks(hue, np.where(chroma > NEUTRAL, weight, 0.0), _SMALLEST * pen)
+    chroma, hue = chroma_and_hue(tint(color))
+    peaks = hue_peaks(hue, np.where(chroma > NEUTRAL, weight, 0.0), _SMALLEST * pen)
     if len(peaks):
-        apart = np.abs((hue[:, None] - peaks + np.pi) % (2 * np.pi) - np.pi)
+        apart = np.abs(turn(hue[:, None] - peaks))
         ink = np.where(chroma > NEUTRAL, apart.argmin(1) + 1, 0)
     palette = [_neutral(color[ink == 0], weight[ink == 0])]
     palette += [_typical(color[ink == k], weight[ink == k]) for k in range(1, len(peaks) + 1)]
     return palette, ink
-
-
-def _hue_peaks(hue: Array, weight: Array, smallest: float) -> Array:
-    """The hues round which coloured lines gather, in radians."""
-    share = np.bincount(
-        ((hue + np.pi) / (2 * np.pi) * _HUES).astype(int) % _HUES, weight, minlength=_HUES
-    )
-    near = share + np.roll(share, 1) + np.roll(share, -1)
-    # Two bins of one ink can't both be the highest of their neighbourhood of five.
-    around = np.max([np.roll(near + 1e-9 * share, k) for k in (-3, -2, -1, 1, 2, 3)], axis=0)
-    top = (near + 1e-9 * share > around) & (near >= smallest)
-    return (np.flatnonzero(top) + 0.5) / _HUES * 2 * np.pi - np.pi
 
 
 def _typical(color: Array, weight: Array) -> Color:

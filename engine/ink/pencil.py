@@ -4,15 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..values import PlanarGraph
+from ..values import Array, PlanarGraph
 from .tint import NEUTRAL, branch_colors, tint
-
-Array = np.ndarray
+from .two_strengths import split_strengths
 
 _SOFT = 0.8  # px; how far a scanner spreads the ink of a line
-_FAINTER = 0.65  # of the ink's strength: what pencil under it is at most
-_BETWEEN = (0.2, 0.7)  # of the lines, how much may be neither: 0.2 for each 1 below 0.7 of the ink
-_LEAST = 0.1  # of the lines: what pencil, or ink, must have; less may be dirt, or badly printed
 _INNER = 0.2  # of a branch at either end: other lines are near
 
 
@@ -30,10 +26,6 @@ def undimmed(strength: Array, widths: Array) -> Array:
 def pencil(graph: PlanarGraph, chosen: Array, length: Array) -> tuple[Array, float]:
     """Tell pencil from the ink that was drawn over it.
 
-    A page has both when the strengths of its lines form two clusters, one much fainter than the
-    other, with the less between them the less they differ. One cluster, however wide, is one
-    medium: hardly and firmly drawn pencil stays together.
-
     Args:
         chosen: (B,) bool, the branches to look at: black and grey ones.
         length: (B,) px of each branch.
@@ -45,25 +37,10 @@ def pencil(graph: PlanarGraph, chosen: Array, length: Array) -> tuple[Array, flo
     if graph.strength is None or graph.widths is None or chosen.sum() < 2:
         return found, 1.0
     strength = _of_branches(graph)
-    order = np.flatnonzero(chosen)[np.argsort(strength[chosen], kind="stable")]
-    value, weight = strength[order], length[order] + 1e-6
-    below, mass = np.cumsum(weight), np.cumsum(weight * value)
-    above = below[-1] - below[:-1]
-    faint, strong = mass[:-1] / below[:-1], (mass[-1] - mass[:-1]) / above
-    # The split that leaves the least variance on both sides (Otsu 1979).
-    split = int((below[:-1] * above * (strong - faint) ** 2).argmax())
-    low, high = float(faint[split]), float(strong[split])
-    third = (high - low) / 3
-    between = weight[(value > low + third) & (value < high - third)].sum()
-    told_apart = (
-        low < _FAINTER * high
-        and between < _BETWEEN[0] * (_BETWEEN[1] - low / high) * below[-1]
-        and min(below[split], above[split]) > _LEAST * below[-1]
-    )
-    if not told_apart:
+    split = split_strengths(strength[chosen], length[chosen] + 1e-6)
+    if split is None:
         return found, 1.0
-    found[order[: split + 1]] = True
-    return found, low / high
+    return chosen & (strength <= split.level), split.low / split.high
 
 
 def neutral(graph: PlanarGraph) -> Array:

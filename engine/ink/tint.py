@@ -8,18 +8,24 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..values import PlanarGraph
-
-Array = np.ndarray
+from ..values import Array, PlanarGraph
 
 NEUTRAL = 0.3  # greatest chroma of black ink
+_PAPER = 0.05  # mean density below which paper, not ink, decides the tint
+_ACROSS = (np.array([[2.0, -1.0, -1.0], [0.0, 3.0**0.5, -(3.0**0.5)]]) / 6.0**0.5).T
 _END = 0.2  # of a branch, at either end
 _DARKER = 0.35  # of its points: how many are darker than the colour it is given
 
 
 def density(colors: Array) -> Array:
-    """(..., 3) optical density of sRGB colours 0..255; 0 = white paper."""
-    return -np.log((np.asarray(colors, np.float64) + 8.0) / 263.0)
+    """(..., 3) optical density of sRGB colours 0..255; 0 = white paper.
+
+    float32 stays float32, for whole pages; anything else becomes float64.
+    """
+    colors = np.asarray(colors)
+    if colors.dtype != np.float32:
+        colors = colors.astype(np.float64)
+    return -np.log((colors + 8.0) / 263.0)
 
 
 def tint(colors: Array) -> Array:
@@ -27,10 +33,18 @@ def tint(colors: Array) -> Array:
 
     Red ink has a chroma of about 1, black ink in a warm scan 0.1.
     """
-    dense = density(colors)
-    relative = dense / np.maximum(dense.mean(-1, keepdims=True), 0.05) - 1.0
-    across = np.array([[2.0, -1.0, -1.0], [0.0, 3.0**0.5, -(3.0**0.5)]]) / 6.0**0.5
-    return relative @ across.T
+    return tint_of(density(colors))
+
+
+def tint_of(dense: Array) -> Array:
+    """The tint (..., 2) of densities (..., 3)."""
+    relative = dense / np.maximum(dense.mean(-1, keepdims=True), _PAPER) - 1.0
+    return relative @ _ACROSS
+
+
+def chroma_and_hue(tints: Array) -> tuple[Array, Array]:
+    """(..., 2) tints as chroma (...) and hue (...) in radians."""
+    return np.hypot(tints[..., 0], tints[..., 1]), np.arctan2(tints[..., 1], tints[..., 0])
 
 
 def branch_colors(graph: PlanarGraph) -> Array:

@@ -1,7 +1,8 @@
 """PlanarGraph -> Routing: which half-branches continue in which.
 
 Every pair of half-branches at a junction gets a score (log-odds of being one line), by a network
-or by geometry; the best involution of every junction follows, with its ranked alternatives.
+or by geometry, and so does the one pair at each corner (`lifting`); the best involution of every
+junction follows, with its ranked alternatives.
 """
 
 from __future__ import annotations
@@ -11,8 +12,10 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from ..errors import InvoluteError
+from ..graph.topology import joined
 from ..settings import Settings
 from ..values import Pair, PlanarGraph, Routing
+from . import lifting
 from .alternatives import ranked_alternatives
 from .candidates import candidate_pairs
 
@@ -21,33 +24,71 @@ Scorer = Callable[[PlanarGraph, np.ndarray, Fixed], np.ndarray]
 
 
 def route(graph: PlanarGraph, settings: Settings, fixed: Fixed | None = None) -> Routing:
-    """Pair the half-branches of every junction.
+    """Pair the half-branches of every junction and every corner.
 
     Args:
-        fixed: junction number -> the pairs that the user has decided; they are kept and locked,
-            and the scorer may learn from them.
+        fixed: number of a place -> the pairs that the user has decided; they are kept and locked,
+            and the scorers may learn from them.
 
     Raises:
         InvoluteError: fixed pairs that are not disjoint pairs of half-branches of their junction.
     """
-    fixed = {
-        junction: checked_pairs(graph, junction, pairs) for junction, pairs in (fixed or {}).items()
-    }
+    fixed = {place: checked_pairs(graph, place, pairs) for place, pairs in (fixed or {}).items()}
     pairs = candidate_pairs(graph)
-    score = scorer_for(settings)(graph, pairs, fixed) if len(pairs) else np.zeros(0, np.float32)
+    turns = lifting.score(graph, fixed)
+    crossing = len(pairs) - len(turns)
+    score = np.concatenate([_at_junctions(graph, pairs[:crossing], fixed, settings), turns])
     alternatives = ranked_alternatives(graph, score, fixed)
 
-    partner = np.arange(2 * graph.branch_count, dtype=np.int32)
     chosen = [fixed.get(j, ways[0].pairs) for j, ways in enumerate(alternatives)]
-    joined = np.array([pair for ways in chosen for pair in ways], np.int32).reshape(-1, 2)
-    partner[joined[:, 0]], partner[joined[:, 1]] = joined[:, 1], joined[:, 0]
-    # A line that passes no junction and closes on itself: its two halves continue each other.
-    loop = np.flatnonzero(graph.degrees[graph.half_vertex] == 2)
-    partner[loop] = loop ^ 1
+    chosen = np.array(
+        [pair for ways in chosen[: len(graph.junctions)] for pair in ways], np.int32
+    ).reshape(-1, 2)
+    on = lifting.goes_on(turns, settings.corners)
+    for place, ways in fixed.items():
+        if place >= len(graph.junctions):
+            on[place - len(graph.junctions)] = bool(ways)
+    partner = np.arange(2 * graph.branch_count, dtype=np.int32)
+    for a, b in (chosen.T, pairs[crossing:][on].T):
+        partner[a], partner[b] = b, a
 
-    locked = np.zeros(len(graph.junctions), bool)
+    locked = np.zeros(len(graph.places), bool)
     locked[list(fixed)] = True
     return Routing(partner, pairs, np.asarray(score, np.float32), alternatives, locked)
+
+
+def with_corners(routing: Routing, graph: PlanarGraph) -> Routing:
+    """A routing that knows no corners, as in files of before they were decided, with those of the
+    graph: they are as its partners say, and not locked."""
+    missing = len(graph.places) - len(routing.locked)
+    if missing != len(graph.corners) or len(routing.alternatives) != len(routing.locked):
+        return routing
+    pairs = candidate_pairs(graph)[-missing:] if missing else routing.pairs[:0]
+    score = np.full(missing, lifting.UNSEEN, np.float32)
+    return Routing(
+        routing.partner,
+        np.concatenate([routing.pairs, pairs]),
+        np.concatenate([routing.pair_score, score]),
+        routing.alternatives + lifting.alternatives(pairs, score),
+        np.concatenate([routing.locked, np.zeros(missing, bool)]),
+    )
+
+
+def _at_junctions(
+    graph: PlanarGraph, pairs: np.ndarray, fixed: Fixed, settings: Settings
+) -> np.ndarray:
+    """(K,) scores of the pairs at junctions, which see their branches whole, corners and all."""
+    if not len(pairs):
+        return np.zeros(0, np.float32)
+    whole, halves = joined(graph)
+    number = np.full(2 * graph.branch_count, -1, np.int32)
+    number[halves] = np.arange(len(halves))
+    decided = {
+        place: tuple(tuple(sorted(number[list(pair)].tolist())) for pair in ways)
+        for place, ways in fixed.items()
+        if place < len(graph.junctions)
+    }
+    return scorer_for(settings)(whole, number[pairs], decided)
 
 
 def scorer_for(settings: Settings) -> Scorer:
@@ -76,9 +117,9 @@ def checked_pairs(graph: PlanarGraph, junction: int, pairs: tuple[Pair, ...]) ->
     Raises:
         InvoluteError: not disjoint pairs of half-branches of that junction.
     """
-    if not 0 <= junction < len(graph.junctions):
+    if not 0 <= junction < len(graph.places):
         raise InvoluteError(f"There is no junction {junction}; there are {len(graph.junctions)}.")
-    here = {int(h) for h in graph.halves_of(graph.junctions[junction])}
+    here = {int(h) for h in graph.halves_of(graph.places[junction])}
     flat = [int(h) for pair in pairs for h in pair]
     if not set(flat) <= here or len(set(flat)) != len(flat) or any(len(p) != 2 for p in pairs):
         raise InvoluteError(

@@ -12,11 +12,9 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from ..values import Alternative, Pair, PlanarGraph
+from ..involution import MAX_LISTED_DEGREE, best_matching, involutions, pair_matrix, pairs_of
+from ..values import Alternative, Array, Pair, PlanarGraph
 from .candidates import by_degree, pair_starts
-from .involution import MAX_LISTED_DEGREE, best_matching, involutions, pair_matrix, pairs_of
-
-Array = np.ndarray
 
 KEPT = 6  # alternatives a person would look at
 
@@ -24,19 +22,19 @@ KEPT = 6  # alternatives a person would look at
 def ranked_alternatives(
     graph: PlanarGraph, pair_score: Array, keep: Mapping[int, tuple[Pair, ...]] | None = None
 ) -> tuple[tuple[Alternative, ...], ...]:
-    """The best ways to route each junction, best first.
+    """The best ways to route each junction and each corner, best first.
 
     Args:
         pair_score: (K,) log-odds of joining, in the order of `candidate_pairs`.
-        keep: junction number -> pairs that must be in the list, however improbable.
+        keep: number of a place -> pairs that must be in the list, however improbable.
 
     Returns:
-        For each junction in graph.junctions order up to `KEPT` alternatives (one more if the kept
+        For each vertex in graph.places order up to `KEPT` alternatives (one more if the kept
         way is not among them); the first is the maximum-weight matching.
     """
     keep = keep or {}
     starts = pair_starts(graph)
-    found: list[tuple[Alternative, ...]] = [()] * len(graph.junctions)
+    found: list[tuple[Alternative, ...]] = [()] * len(graph.places)
     for junctions, halves in by_degree(graph):
         degree = halves.shape[1]
         rows = starts[junctions][:, None] + np.arange(degree * (degree - 1) // 2)

@@ -10,9 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..ink.tint import tint
-from ..values import PlanarGraph
-
-Array = np.ndarray
+from ..values import Array, PlanarGraph
 
 DEFAULT_WIDTH = 4.0  # px; for graphs whose widths were not measured
 # Stretches of a half-branch, in pen widths from its junction. Right at the junction lines run
@@ -22,6 +20,7 @@ _MIDDLE = (0.6, 4.0)
 _FAR = (1.0, 9.0)
 _SAMPLES = 8
 _KNOTS = (0.2, 0.6, 1.3)  # radians; where the worth of an angle changes its slope
+_SAME = 1e-3  # radians; directions that differ by less are one
 _MANY = 5  # half-branches from which on a junction is a cluster and judged by other weights
 
 
@@ -213,11 +212,32 @@ def _misfit(stretch: Stretch, a: Array, b: Array) -> Array:
 
 
 def _opposite(graph: PlanarGraph, direction: Array, a: Array, b: Array) -> Array:
-    """1 = half of the other half-branches lie on either side, 0 = neighbours around the vertex."""
+    """1 = half of the other half-branches lie on either side, 0 = neighbours around the vertex.
+
+    Half-branches that leave a vertex in one direction count as one: nothing says which is first.
+    """
     vertex = graph.half_vertex
-    order = np.lexsort((np.arctan2(direction[:, 1], direction[:, 0]), vertex))
-    rank = np.empty(len(vertex), np.int64)
-    rank[order] = np.arange(len(vertex))
-    apart = np.abs(rank[a] - rank[b])
-    degree = graph.degrees[vertex[a]]
-    return (np.minimum(apart, degree - apart) - 1) / np.maximum((degree - 2) / 2, 1)
+    rank, count = _around(np.arctan2(direction[:, 1], direction[:, 0]), vertex)
+    apart, count = np.abs(rank[a] - rank[b]), count[vertex[a]]
+    apart = np.maximum(np.minimum(apart, count - apart), 1)
+    return (apart - 1) / np.maximum((count - 2) / 2, 1)
+
+
+def _around(angle: Array, vertex: Array) -> tuple[Array, Array]:
+    """(2B,) the number of each direction around its vertex, and (V,) how many directions it has."""
+    order = np.lexsort((angle, vertex))
+    angle, at = angle[order], vertex[order]
+    first = np.diff(at, prepend=-1) > 0
+    new = first | (np.diff(angle, prepend=0.0) > _SAME)
+    number = np.cumsum(new) - 1
+    start = np.maximum.accumulate(np.where(first, number, 0))
+    count = np.zeros(int(vertex.max(initial=-1)) + 1, np.int64)
+    np.maximum.at(count, at, number - start + 1)
+    # The last directions may be the first one again, a turn later.
+    lowest = np.maximum.accumulate(np.where(first, np.arange(len(order)), 0))
+    again = (angle[lowest] + 2 * np.pi - angle < _SAME) & (count[at] > 1)
+    again &= number - start == count[at] - 1
+    count[np.unique(at[again])] -= 1
+    rank = np.empty(len(order), np.int64)
+    rank[order] = np.where(again, 0, number - start)
+    return rank, count

@@ -9,10 +9,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..values import PlanarGraph
+from ..values import Array, PlanarGraph
 from .features import FEATURES, half_features, pair_features, tint_gap
-
-Array = np.ndarray
 
 WEIGHTS = {
     "join": 1.80,

@@ -1,13 +1,16 @@
 """Pictures from disk as arrays: whole or not at all, upright, in their own bit depth.
 
 OpenCV decodes (Blender ships no other reader with 16 bits and CMYK). What it leaves to us: pages of
-a TIFF by number, turning PNG, JPEG and WebP by their EXIF tag, and paths in any script.
+a TIFF by number, unusual TIFFs, Targa, the picture in a PSD, BMP with alpha, turning PNG, JPEG and
+WebP by their EXIF tag, sizes that lie, and paths in any script.
 """
 
 from __future__ import annotations
 
+import io
+import stat
 import struct
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from os import PathLike
 from pathlib import Path
@@ -17,12 +20,17 @@ import cv2
 import numpy as np
 
 from ..errors import InvoluteError
+from ..formats.picture_kinds import Kind, kind_of, read_kinds
 from ..values import Array
-from . import movie
+from . import movie, plain_tiff, psd, tga, tiff_directories
+from .tiff_directories import DamagedTiffError
 
-_TIFF = {b"II*\0": "<", b"MM\0*": ">", b"II+\0": "<", b"MM\0+": ">"}
-_MOST_PAGES = 10_000  # a directory chain longer than this runs in circles
-_ORIENTATION, _SUBFILE = 0x0112, 0x00FE  # TIFF and EXIF tags
+_ORIENTATION = 0x0112  # EXIF tag
+_HEAD = 64  # bytes that show what a file is
+# Pixels that one byte can stand for at most: the longest string of a GIF, 4096 in 9 bits; 64 in two
+# bits of a JPEG, and four times as many in runs of empty blocks.
+_PER_BYTE = {"GIF": 4096, "JPEG": 1024}
+_FRAME_HEADERS = frozenset({*range(0xC0, 0xD0)} - {0xC4, 0xC8, 0xCC})  # of a JPEG
 
 
 def read_image(path: str | PathLike[str], page: int = 0) -> Array:
@@ -34,18 +42,22 @@ def read_image(path: str | PathLike[str], page: int = 0) -> Array:
     Raises:
         InvoluteError: missing, damaged, too large, or not an image.
     """
-    path = Path(path)
+    try:
+        path = Path(path)
+    except TypeError:
+        raise InvoluteError("Give the path of an image, or an array of its pixels.") from None
     if movie.is_movie(path):
         return cv2.cvtColor(movie.read_image(path, page), cv2.COLOR_BGR2RGB)
-    try:
-        data = np.fromfile(path, np.uint8)
-    except FileNotFoundError:
-        raise InvoluteError(f"There is no file {path}; check the path.") from None
-    except OSError as error:
-        raise InvoluteError(f"Can't read {path}: {error.strerror or error}.") from None
+    with _opened(path) as file:
+        data = np.frombuffer(file.read(), np.uint8)
+    kind = kind_of(data[:_HEAD].tobytes(), path)
+    if kind and kind.remedy:
+        raise InvoluteError(f"{path.name} is {kind.name}, which is not read; {kind.remedy}.")
     try:
         with _quiet():
-            picture = _decode(data, page)
+            picture = _decode(data, page, kind)
+    except DamagedTiffError:
+        picture = None
     except (cv2.error, MemoryError) as error:
         if isinstance(error, cv2.error) and "MAX_IMAGE" not in str(error):
             picture = None
@@ -54,13 +66,7 @@ def read_image(path: str | PathLike[str], page: int = 0) -> Array:
                 f"{path.name} is too large to be read; scale it down to at most 20,000 px a side."
             ) from None
     if picture is None:
-        raise InvoluteError(
-            f"{path.name} is damaged or not a picture; give a whole PNG, JPEG, TIFF, WebP or BMP."
-        )
-    if picture.ndim == 3 and picture.shape[2] == 3:
-        cv2.cvtColor(picture, cv2.COLOR_BGR2RGB, dst=picture)
-    elif picture.ndim == 3 and picture.shape[2] == 4:
-        cv2.cvtColor(picture, cv2.COLOR_BGRA2RGBA, dst=picture)
+        raise InvoluteError(_why_not(path, kind))
     return picture
 
 
@@ -72,30 +78,135 @@ def page_count(path: str | PathLike[str]) -> int:
     """
     if movie.is_movie(path):
         return movie.image_count(path)
+    with _opened(Path(path)) as file:
+        return max(1, len(tiff_directories.pages(file)))
+
+
+@contextmanager
+def _opened(path: Path) -> Iterator[BinaryIO]:
+    """A file to read; what is no file is not waited for.
+
+    Raises:
+        InvoluteError: it can't be read.
+    """
     try:
+        if not stat.S_ISREG(path.stat().st_mode):
+            what = "a folder" if path.is_dir() else "no file"
+            raise InvoluteError(f"{path} is {what}; give an image file (or - for a pipe).")
         with open(path, "rb") as file:
-            return max(1, len(_tiff_pages(file)))
+            yield file
     except FileNotFoundError:
         raise InvoluteError(f"There is no file {path}; check the path.") from None
     except OSError as error:
         raise InvoluteError(f"Can't read {path}: {error.strerror or error}.") from None
+    except ValueError:
+        raise InvoluteError(f"{str(path)!r} can't be the name of a file.") from None
 
 
-def _decode(data: Array, page: int) -> Array | None:
-    if data[:4].tobytes() in _TIFF:
-        directories = _tiff_pages(_Bytes(data))
-        if not 0 <= page < len(directories):
-            return None
-        first = directories[page]
-        ok, pages = cv2.imdecodemulti(data, cv2.IMREAD_UNCHANGED, range=(first, first + 1))
-        return pages[0] if ok and pages else None
+def _why_not(path: Path, kind: Kind | None) -> str:
+    if kind is None:
+        return f"{path.name} is not a picture of a kind that is read; give {read_kinds()}."
+    return f"{path.name} is damaged; give a whole {kind.name} file."
+
+
+def _decode(data: Array, page: int, kind: Kind | None) -> Array | None:
+    """One page as RGB; None when it is damaged, or there is no such page.
+
+    Raises:
+        DamagedTiffError, cv2.error, MemoryError: as they say.
+    """
+    name = kind.name if kind else ""
+    if name == "TIFF":
+        return _tiff_page(data, page)
     if page != 0:
         return None
+    own = _OWN.get(name)
+    picture = own(data.tobytes()) if own else None
+    if picture is not None or name in ("TGA", "PSD"):
+        return picture
+    if name in _PER_BYTE and _claimed(data, name) > _PER_BYTE[name] * len(data):
+        return None  # before room is made for pixels that can't be there
     picture, kinds, metadata = cv2.imdecodeWithMetadata(data, cv2.IMREAD_UNCHANGED)
     if picture is None:
         return None
-    exif = [m for kind, m in zip(kinds, metadata, strict=True) if kind == cv2.IMAGE_METADATA_EXIF]
-    return _upright(picture, _orientation(exif[0].tobytes())) if exif else picture
+    exif = [m for what, m in zip(kinds, metadata, strict=True) if what == cv2.IMAGE_METADATA_EXIF]
+    picture = _upright(picture, _orientation(exif[0].tobytes())) if exif else picture
+    return _as_rgb(picture)
+
+
+def _tiff_page(data: Array, page: int) -> Array | None:
+    raw = data.tobytes()
+    numbers = tiff_directories.pages(io.BytesIO(raw))
+    if not 0 <= page < len(numbers):
+        return None
+    directory = numbers[page]
+    layout = plain_tiff.layout(raw, directory)
+    if layout and layout.needs_us:
+        picture = plain_tiff.read(raw, layout)
+        if picture is not None:
+            tags = list(tiff_directories.directories(io.BytesIO(raw)))[directory]
+            return _upright(_usual(picture), tags.get(_ORIENTATION, (1,))[0])
+    ok, pictures = cv2.imdecodemulti(data, cv2.IMREAD_UNCHANGED, range=(directory, directory + 1))
+    return _as_rgb(pictures[0]) if ok and pictures else None
+
+
+def _usual(picture: Array) -> Array:
+    """Samples and channels as every other reader gives them."""
+    kind, size = picture.dtype.kind, picture.dtype.itemsize
+    if kind in "ui" and size > 2:
+        picture = (picture >> (8 * size - 16)).astype("u2" if kind == "u" else "i2")
+    elif picture.dtype == np.float16:
+        picture = picture.astype(np.float32)
+    if picture.ndim == 3 and picture.shape[2] == 2:
+        picture = np.dstack([picture[..., :1].repeat(3, 2), picture[..., 1]])
+    return picture[..., :4] if picture.ndim == 3 else picture
+
+
+def _as_rgb(picture: Array) -> Array:
+    if picture.ndim == 3 and picture.shape[2] == 3:
+        return cv2.cvtColor(picture, cv2.COLOR_BGR2RGB, dst=picture)
+    if picture.ndim == 3 and picture.shape[2] == 4:
+        return cv2.cvtColor(picture, cv2.COLOR_BGRA2RGBA, dst=picture)
+    return picture
+
+
+def _claimed(data: Array, name: str) -> int:
+    """Pixels that a GIF or JPEG says it has; 0 when it does not say."""
+    if name == "GIF":
+        width, height = struct.unpack("<HH", data[6:10].tobytes().ljust(4, b"\0"))
+        return width * height
+    at = 2
+    while at + 9 <= len(data) and data[at] == 0xFF:
+        if int(data[at + 1]) in _FRAME_HEADERS:
+            height, width = struct.unpack(">HH", data[at + 5 : at + 9].tobytes())
+            return width * height
+        at += 2 + int.from_bytes(data[at + 2 : at + 4].tobytes(), "big")
+    return 0
+
+
+def _bmp_with_alpha(data: bytes) -> Array | None:
+    """A BMP of 32 bits whose alpha means something, RGBA; None for those that OpenCV reads."""
+    if len(data) < 70:
+        return None
+    start, header, width, height, _, bits, packing = struct.unpack("<10xIIiiHHI", data[:34])
+    masks = struct.unpack("<4I", data[54:70]) if header >= 56 else (0, 0, 0, 0)
+    usual = (0x00FF0000, 0x0000FF00, 0x000000FF, 0xFF000000)
+    if bits != 32 or packing not in (0, 3) or (packing == 3 and masks != usual):
+        return None
+    rows, size = abs(height), abs(height) * width * 4
+    if width <= 0 or not rows or len(data) - start < size:
+        return None
+    picture = np.frombuffer(data, np.uint8, size, start).reshape(rows, width, 4)
+    if not picture[..., 3].any() or (picture[..., 3] == 255).all():
+        return None
+    return np.ascontiguousarray((picture[::-1] if height > 0 else picture)[..., [2, 1, 0, 3]])
+
+
+_OWN: dict[str, Callable[[bytes], Array | None]] = {
+    "TGA": tga.read,
+    "PSD": psd.read,
+    "BMP": _bmp_with_alpha,
+}
 
 
 @contextmanager
@@ -118,68 +229,12 @@ def _upright(picture: Array, orientation: int) -> Array:
 
 
 def _orientation(exif: bytes) -> int:
-    file = _Bytes(np.frombuffer(exif.removeprefix(b"Exif\0\0"), np.uint8))
+    file = io.BytesIO(exif.removeprefix(b"Exif\0\0"))
     try:
-        return next((tags.get(_ORIENTATION, 1) for tags in _tiff_directories(file)), 1)
-    except (struct.error, OSError):
+        first = next(tiff_directories.directories(file), {})
+    except DamagedTiffError:
         return 1
-
-
-def _tiff_pages(file: BinaryIO | _Bytes) -> list[int]:
-    """The numbers of the directories that are pages, not thumbnails or masks of one."""
-    found = []
-    try:
-        for number, tags in enumerate(_tiff_directories(file)):
-            if not tags.get(_SUBFILE, 0) & 0b101:
-                found.append(number)
-    except struct.error:  # cut off: decoding will tell
-        pass
-    return found
-
-
-def _tiff_directories(file: BinaryIO | _Bytes) -> Iterator[dict[int, int]]:
-    """The short tags of every directory of a TIFF or BigTIFF: tag -> first value."""
-    magic = file.read(4)
-    order = _TIFF.get(magic)
-    if order is None:
-        return
-    big = b"+" in magic
-    if big:
-        file.read(4)
-    pointer, count, entry = ("Q", "Q", "HHQ8s") if big else ("I", "H", "HHI4s")
-
-    def unpack(layout: str) -> tuple:
-        layout = order + layout
-        return struct.unpack(layout, file.read(struct.calcsize(layout)))
-
-    (offset,) = unpack(pointer)
-    seen: set[int] = set()
-    while offset and offset not in seen and len(seen) < _MOST_PAGES:
-        seen.add(offset)
-        file.seek(offset)
-        (entries,) = unpack(count)
-        tags = {}
-        for _ in range(entries):
-            tag, kind, _, value = unpack(entry)
-            if kind in (3, 4):
-                tags[tag] = struct.unpack_from(order + ("H" if kind == 3 else "I"), value)[0]
-        yield tags
-        (offset,) = unpack(pointer)
-
-
-class _Bytes:
-    """The little of a file that the TIFF reader needs, over bytes in memory."""
-
-    def __init__(self, data: Array) -> None:
-        self._data, self._at = data, 0
-
-    def seek(self, offset: int) -> None:
-        self._at = offset
-
-    def read(self, size: int) -> bytes:
-        part = self._data[self._at : self._at + size].tobytes()
-        self._at += size
-        return part
+    return first.get(_ORIENTATION, (1,))[0]
 
 
 __all__ = ["page_count", "read_image"]

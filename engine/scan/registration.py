@@ -25,6 +25,7 @@ from ..values import Array, Scan
 _DARK = 0.35  # ink
 _MARGIN = 0.16  # of the page: how far from its edges holes and marks are looked for
 _DEEPEST = 0.15  # of the page: a wider black area is a drawn one
+_PEN = (0.4, 1.6)  # pen widths: how wide a line along the edge is, which may be cut off by it
 _WORKING_SIDE = 3000  # px; larger pages are looked at smaller
 _LOOSE = 0.02  # of the distance between the holes: how far they may miss those of the first page
 _SIZES = (0.007, 0.09)  # of the page's longer side: smallest and largest hole or mark
@@ -38,10 +39,12 @@ class Marks:
         order that depends only on the page: K = 3 for a peg bar, 2 to 4 for a file punch, 0 when
         there are none.
     mask: (H, W) bool, all that must not be traced.
+    names: what it is, for people.
     """
 
     anchors: Array
     mask: Array
+    names: tuple[str, ...] = ()
 
 
 def set_aside(scan: Scan, settings: Settings) -> Scan:
@@ -55,7 +58,9 @@ def set_aside(scan: Scan, settings: Settings) -> Scan:
         return replace(scan, aligned=not len(wanted))
     marks = find_marks(scan.ink, scan.pen_width)
     if marks.mask.any():
-        scan = replace(scan, ink=np.where(marks.mask, np.float32(0), scan.ink))
+        note = f"Left out as no part of the drawing: {', '.join(marks.names)}."
+        ink = np.where(marks.mask, np.float32(0), scan.ink)
+        scan = replace(scan, ink=ink, notes=(*scan.notes, note))
     if not len(wanted):
         return scan
     if len(wanted) != len(marks.anchors):
@@ -106,17 +111,20 @@ def find_marks(ink: Array, pen_width: float) -> Marks:
         pen_width = max(1.0, pen_width / shrink)
     dark = (ink > _DARK).astype(np.uint8)
     mask = _borders(dark, pen_width)
+    names = ["dark borders of the scan"] if mask.any() else []
     dark[mask] = 0
     blobs = _blobs(dark, pen_width)
     holes = _peg_holes(blobs, ink.shape)
     crosses = _crosses(blobs, ink.shape)
+    names += [f"{len(holes)} punched holes"] if holes else []
+    names += [f"{len(crosses)} registration marks"] if crosses else []
     for blob in (*holes, *crosses):
         _stamp(mask, blob, pen_width)
     if shrink > 1:
         whole = cv2.resize(mask.view(np.uint8), (width, height), interpolation=cv2.INTER_NEAREST)
         mask = whole.view(bool)
     anchors = np.float32([blob.middle for blob in holes or crosses]).reshape(-1, 2)
-    return Marks(anchors * np.float32(shrink), mask)
+    return Marks(anchors * np.float32(shrink), mask, tuple(names))
 
 
 def rigid(source: Array, target: Array) -> Array:
@@ -166,7 +174,7 @@ def _border_depth(dark: Array, pen_width: float, shortest: float) -> Array:
     height, width = dark.shape
     deepest = int(_DEEPEST * height)
     strip = dark[: deepest + 4].astype(bool)
-    strip[:3] |= strip[3]  # scanners like to leave a few odd rows at the very edge
+    strip[:3] |= strip[3:4].any(axis=0)  # scanners leave a few odd rows at the very edge
     depth = np.where(strip.all(axis=0), len(strip), strip.argmin(axis=0)).astype(np.float32)
     # Lines that end on the border are narrow; a border is not.
     window = max(3, int(6 * pen_width)) | 1
@@ -174,8 +182,31 @@ def _border_depth(dark: Array, pen_width: float, shortest: float) -> Array:
     there = np.flatnonzero((depth > 0) & (depth <= deepest))
     if len(there) < max(shortest * width, window) or not _is_straight(there, depth, pen_width):
         return np.zeros(width, np.int64)
+    if _is_line(there, depth, dark, pen_width):
+        return np.zeros(width, np.int64)
     edge = np.where(depth > 0, depth + 1.5 * pen_width + 1, 0)
     return cv2.dilate(edge[None], np.ones((1, window), np.uint8))[0].astype(np.int64)
+
+
+def _is_line(there: Array, depth: Array, dark: Array, pen_width: float) -> bool:
+    """Whether a border is a drawn line along the edge: as wide as the pen all along, and at either
+    end it stops short of the picture's corner, or turns and leaves the edge.
+
+    A border of the scanner is wider, thins out where the page lies askew, or runs out of the
+    picture.
+    """
+    typical = float(np.median(depth[there]))
+    even = np.percentile(np.abs(depth[there] - typical), 80) < 0.25 * pen_width + 1
+    if not (_PEN[0] * pen_width < typical < _PEN[1] * pen_width and even):
+        return False
+    reach = int(4 * pen_width) + 4
+    below = slice(int(typical + 1.5 * pen_width) + 1, int(typical + 1.5 * pen_width) + 1 + reach)
+
+    def goes_on(end: int, corner: int) -> bool:
+        near = slice(max(0, end - reach), end + reach)
+        return abs(end - corner) > reach or dark[below, near].any(axis=1).all()
+
+    return goes_on(int(there[0]), 0) and goes_on(int(there[-1]), dark.shape[1] - 1)
 
 
 def _is_straight(there: Array, depth: Array, pen_width: float) -> bool:

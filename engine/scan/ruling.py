@@ -19,6 +19,7 @@ _LEAST = 0.012  # mean darkness of a row of a strip from which on it may belong 
 _THROUGH, _MARGIN = 0.7, 0.9  # share of the strips in which a rule, or a margin line, shows
 _FEWEST, _FEWEST_ALONE = 5, 8  # rules; the latter where nothing on the page is darker
 _EVEN, _MOST_EVEN = 0.12, 0.7  # of the pitch that a gap may be off; share of the gaps that are not
+_SAME_PITCH, _NEXT = 0.03, 4  # front and back are ruled alike; lines looked at from one on
 _SPAN = 0.5  # of the page that rules cover
 _PEN, _PEN_PIXELS = 1.7, 60  # so many pixels so many times as dark as the rules: a pen
 _PALE = 0.5  # how dark the rules of an otherwise blank page may be
@@ -62,15 +63,15 @@ def without_rules(darkness: Array) -> Array:
     if not any(_may_be_ruled(strip) for strip in strips):
         return darkness
     lines = [_lines_across(strip, darkness.shape[1 - axis]) for axis, strip in enumerate(strips)]
-    rules = [_evenly_spaced(found, side) for found, side in zip(lines, darkness.shape, strict=True)]
-    if not any(rule.any() for rule in rules):
+    rules = [_families(found, side) for found, side in zip(lines, darkness.shape, strict=True)]
+    if not any(rules):
         return darkness
     left, tones = darkness.copy(), []
     for page, found, rule in zip((left, left.T), lines, rules, strict=True):
         # A sheet that is ruled one way may have a line at its margin the other way.
-        chosen = found.take(rule if rule.any() else found.shown >= _MARGIN)
-        if len(chosen.at):
-            tones.append(_take_out(page, chosen))
+        for chosen in map(found.take, rule or [found.shown >= _MARGIN]):
+            if len(chosen.at):
+                tones.append(_take_out(page, chosen))
     tone = np.concatenate(tones)
     typical = float(np.median(tone))
     drawn = np.count_nonzero(left > _PEN * typical) >= _PEN_PIXELS
@@ -143,6 +144,38 @@ def _stray(mean: Array, at: Array) -> Array:
     )
     padded = np.pad(off, ((0, 0), (1, 1)), mode="edge")
     return np.median([padded[:, :-2], off, padded[:, 2:]], 0).astype(np.float32)
+
+
+def _families(lines: _Lines, side: int) -> list[Array]:
+    """Which lines are rules, (N,) bool for each side of the sheet that shows; [] for none."""
+    one = _evenly_spaced(lines, side)
+    if one.any():
+        return [one]
+    # The rules of the back, seen through the paper, lie between those of the front.
+    front, pitch = _comb(lines, np.ones(len(lines.at), bool), side)
+    back, other = _comb(lines, ~front, side)
+    same = front.any() and back.any() and abs(other - pitch) < _SAME_PITCH * pitch
+    return [front, back] if same else []
+
+
+def _comb(lines: _Lines, free: Array, side: int) -> tuple[Array, float]:
+    """The largest set of free lines at equal distances, (N,) bool, and that distance; none = 0."""
+    best, best_pitch = np.zeros(len(lines.at), bool), 0.0
+    if free.sum() < _FEWEST:
+        return best, best_pitch
+    place = lines.at + np.median(lines.stray, 1)
+    numbers = np.flatnonzero(free)
+    for ahead in range(1, _NEXT + 1):
+        for a, b in zip(numbers, numbers[ahead:], strict=False):
+            pitch = place[b] - place[a]
+            steps = (place - place[a]) / pitch
+            tooth = free & (np.abs(steps - np.round(steps)) < _EVEN)
+            teeth = np.round(steps[tooth])
+            full = len(np.unique(teeth)) >= _MOST_EVEN * (np.ptp(teeth) + 1)
+            spans = np.ptp(place[tooth]) >= _SPAN * side
+            if full and spans and tooth.sum() >= max(_FEWEST, best.sum() + 1):
+                best, best_pitch = tooth, float(pitch)
+    return best, best_pitch
 
 
 def _evenly_spaced(lines: _Lines, side: int) -> Array:

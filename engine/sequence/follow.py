@@ -13,15 +13,11 @@ from dataclasses import dataclass, field, replace
 import cv2
 import numpy as np
 
+from ..arrays.ragged import arc
 from ..drawing import Drawing
-from ..ink.unmixing import COLORED, hue_of
+from ..ink.known_inks import Color, with_known_inks
 from ..values import Array, Stroke
 from .stroke_matching import SAMPLES, Matches, match_strokes, sample_strokes
-
-_SAME_HUE = np.radians(35)  # a coloured ink may look darker in one frame, hardly of another hue
-_SAME_GRAY = 60.0  # of 255, for black, gray and what is nearly that
-
-Color = tuple[int, int, int]
 
 
 @dataclass
@@ -82,7 +78,7 @@ def _started_like(stroke: Stroke, old: Stroke, share: float) -> Stroke:
     if not stroke.closed:
         return stroke
     around = np.vstack([stroke.points, stroke.points[:1]])
-    along = np.concatenate([[0], np.cumsum(np.hypot(*np.diff(around, axis=0).T))])
+    along = arc(around)
     off = np.abs((along[:-1] / along[-1] - share + 0.5) % 1.0 - 0.5)
     start = old.points[0] + _middle(stroke) - _middle(old)
     there = np.hypot(*(stroke.points - start).T) / along[-1]
@@ -151,25 +147,3 @@ def _against_the_grain(
     size = np.hypot(*there.T) * np.hypot(*here.T) + 1e-9
     vote = (there * here).sum(axis=1) / size / (4.0 + squared[:, 0])
     return vote.reshape(len(newcomers), -1).sum(axis=1) < 0
-
-
-def with_known_inks(strokes: Sequence[Stroke], inks: list[Color]) -> tuple[Stroke, ...]:
-    """Strokes in the colours that their inks had before; `inks` grows by those not seen yet."""
-    known: dict[Color, Color] = {}
-    for color in dict.fromkeys(s.color for s in strokes):
-        likely = min(inks, key=lambda ink: _ink_difference(color, ink), default=color)
-        known[color] = likely if _ink_difference(color, likely) < 1.0 else color
-        if known[color] not in inks:
-            inks.append(known[color])
-    return tuple(
-        s if known[s.color] == s.color else replace(s, color=known[s.color]) for s in strokes
-    )
-
-
-def _ink_difference(one: Color, other: Color) -> float:
-    """Below 1 for two shades of one ink."""
-    colors = np.array([one, other], float)
-    chroma, hue = hue_of(-np.log((colors + 8.0) / 263.0))
-    if (chroma > COLORED).all():
-        return float(abs(np.angle(np.exp(1j * (hue[0] - hue[1])))) / _SAME_HUE)
-    return float(np.abs(colors[0] - colors[1]).max() / _SAME_GRAY)

@@ -13,7 +13,8 @@ from ..errors import InvoluteError
 
 _DIGITS = re.compile(r"\d+")
 _SPARSEST = 100  # numbers farther apart than this are times of day or serials, not frames
-_RANGE = re.compile(r"\s*(\d+)(?:\s*-\s*(\d+))?(?:\s*[:x]\s*(\d+))?\s*")
+_LAST = 1_048_574  # Blender's last frame, and the negative of its first
+_RANGE = re.compile(r"\s*(\d{1,18})(?:\s*-\s*(\d{1,18}))?(?:\s*[:x]\s*(\d{1,18}))?\s*")
 
 
 @dataclass(frozen=True)
@@ -53,7 +54,8 @@ class FrameRange:
             last = first if last is None else last
             if not match or last < first or step == 0:
                 raise InvoluteError(
-                    f"Can't read the frames {text!r}; write for example 101-200 or 1-48:2 or 1,5,9."
+                    f"Can't read the frames {text[:40]!r}; "
+                    "write for example 101-200 or 1-48:2 or 1,5,9."
                 )
             parts.append(range(first, last + 1, step or 1))
         return FrameRange(tuple(parts))
@@ -82,10 +84,8 @@ def number_frames(
             sequence land where the whole would.
 
     Raises:
-        InvoluteError: the names are not those of one sequence.
+        InvoluteError: the names are not those of one sequence, or a frame is beyond any timeline.
     """
-    if step < 1:
-        raise InvoluteError("The step between frames must be 1 or more.")
     files = [fspath(p) for p in paths]
     numbers = _numbers([Path(p).stem for p in files])
     ordered = sorted(zip(numbers, files, strict=True))
@@ -97,11 +97,14 @@ def number_frames(
             )
     first = ordered[0][0] if ordered else 0
     origin = first if start is None else start
-    return [
-        Frame(number, origin + (number - first) * step, path)
-        for number, path in ordered
-        if frames is None or number in frames
-    ]
+    return _on_timeline(
+        [
+            Frame(number, origin + (number - first) * step, path)
+            for number, path in ordered
+            if frames is None or number in frames
+        ],
+        step,
+    )
 
 
 def number_pages(
@@ -114,11 +117,26 @@ def number_pages(
 ) -> list[Frame]:
     """The same for one file that holds all the drawings: the pages of a TIFF, a movie clip."""
     origin = 1 if start is None else start
-    return [
-        Frame(page + 1, origin + page * step, fspath(path), page)
-        for page in range(count)
-        if frames is None or page + 1 in frames
-    ]
+    return _on_timeline(
+        [
+            Frame(page + 1, origin + page * step, fspath(path), page)
+            for page in range(count)
+            if frames is None or page + 1 in frames
+        ],
+        step,
+    )
+
+
+def _on_timeline(frames: list[Frame], step: int) -> list[Frame]:
+    if step < 1:
+        raise InvoluteError("The step between frames must be 1 or more.")
+    for frame in frames:
+        if abs(frame.frame) > _LAST:
+            raise InvoluteError(
+                f"Frame {frame.frame} is beyond what a timeline holds ({_LAST:,}); "
+                "choose another start or step."
+            )
+    return frames
 
 
 def _numbers(stems: Sequence[str]) -> list[int]:
@@ -140,7 +158,8 @@ def _numbers(stems: Sequence[str]) -> list[int]:
             f"The names {stems[0]} and {stems[-1]} differ in more than one number; "
             "give the files of one sequence."
         )
-    if len(varying) > 1 or max(numbers) - min(numbers) > _SPARSEST * len(numbers):
+    sparse = max(numbers) - min(numbers) > _SPARSEST * len(numbers)
+    if len(varying) > 1 or sparse or max(numbers) > _LAST:  # times of day, dates
         ranks = {value: rank for rank, value in enumerate(sorted(values), 1)}
         return [ranks[value] for value in values]
     return numbers

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 import cv2
 import numpy as np
 
+from ..arrays.ragged import offsets_of, owners, steps
 from ..values import Array, Stroke
 
 SAMPLES = 32  # per stroke
@@ -71,21 +72,18 @@ def sample_strokes(strokes: Sequence[Stroke], count: int = SAMPLES) -> Array:
     Open strokes are sampled from end to end, closed ones once around without the start again.
     """
     points = [np.vstack([s.points, s.points[:1]]) if s.closed else s.points for s in strokes]
-    sizes = np.array([len(p) for p in points])
+    offsets = offsets_of([len(p) for p in points])
     packed = np.concatenate(points).astype(np.float64)
-    first = np.concatenate([[0], np.cumsum(sizes)[:-1]])
-    step = np.hypot(*np.diff(packed, axis=0, prepend=packed[:1]).T)
-    step[first] = 0
-    along = np.cumsum(step)
-    length = along[first + sizes - 1] - along[first]
+    way = np.cumsum(steps(packed, offsets))
+    first, last = way[offsets[:-1]], way[offsets[1:] - 1]
     closed = np.array([s.closed for s in strokes])
     share = np.arange(count) / np.where(closed, count, count - 1)[:, None]
     # All strokes lie on one axis, one after the other, a little apart: one interp serves them all.
-    gap = np.repeat(np.arange(len(sizes)), sizes)
-    at = along[first][:, None] + share * length[:, None] + np.arange(len(sizes))[:, None]
-    axis = along + gap
+    number = np.arange(len(strokes))[:, None]
+    at = first[:, None] + share * (last - first)[:, None] + number
+    axis = way + owners(offsets)
     out = [np.interp(at.ravel(), axis, packed[:, k]) for k in (0, 1)]
-    return np.stack(out, 1).reshape(len(sizes), count, 2).astype(np.float32)
+    return np.stack(out, 1).reshape(len(strokes), count, 2).astype(np.float32)
 
 
 def _follow_motion(

@@ -10,9 +10,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..values import Array
 from .simplify import runs, worst_of
-
-Array = np.ndarray
 
 _NEWTON = 6  # steps that move the parameters to the nearest points of the curve
 _MERGES = 6  # rounds of trying to do without anchors

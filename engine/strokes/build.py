@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..values import Stroke
+from ..values import Array, Stroke
 from .bezier import fit
 from .corners import find_corners, sharpen
 from .fairing import margin, smooth
@@ -15,10 +15,9 @@ from .shared import SAMPLES_PER_PEN, Page
 from .simplify import simplify
 from .walk import Walk
 
-Array = np.ndarray
-
 _WIDTH_BLUR = 1.0  # pen widths; sigma of the smoothing of widths along a stroke
 _OPACITY_BLUR = 3.0  # pen widths; the same of opacity, which is noisier
+_FADES, _FADING = 0.25, 0.2  # a stroke fades when a fifth of it is so far from its typical opacity
 _FAINTEST = 0.1  # opacity of a stroke at least, so that nothing is there that can't be seen
 _WIDTH_STEP = 0.12  # change of width, in pen widths, that is worth a point of its own
 _OPACITY_STEP = 0.12
@@ -54,7 +53,7 @@ def build(page: Page, walks: Sequence[Walk]) -> list[Stroke]:
         strokes.append(
             Stroke(
                 points=points[chosen].astype(np.float32),
-                widths=widths[chosen].astype(np.float32),
+                widths=(page.settings.width_scale * widths[chosen]).astype(np.float32),
                 opacity=opacity[chosen].astype(np.float32),
                 closed=walk.closed,
                 color=page.inks.color_of(branches >> 1, page.length[branches >> 1]),
@@ -96,4 +95,25 @@ def _ink(page: Page, lines: Lines) -> tuple[Array, Array]:
         weighted = np.column_stack([values[lines.sample] * trust, trust])
         pieces.put(pieces.blur(pieces.alone(weighted), sigma), weighted)
         found.append(weighted[:, 0] / weighted[:, 1])
-    return found[0], np.clip(found[1], _FAINTEST, 1.0)
+    widths, opacity = found
+    if page.settings.even_width:
+        widths = _typical(widths, trust, lines)
+    solid = page.solid[page.inks.ink[lines.branch]]
+    opacity = np.where(solid, 1.0, _steady(opacity, trust, lines))
+    return widths, np.clip(opacity, _FAINTEST, 1.0)
+
+
+def _steady(opacity: Array, trust: Array, lines: Lines) -> Array:
+    """One opacity a stroke, unless it really changes along it."""
+    typical = _typical(opacity, trust, lines)
+    far = np.abs(opacity - typical)
+    run = np.cumsum(lines.first == np.arange(len(lines.first))) - 1
+    share = np.bincount(run, far > _FADES) / np.bincount(run)
+    return np.where(share[run] > _FADING, opacity, typical)
+
+
+def _typical(values: Array, trust: Array, lines: Lines) -> Array:
+    """(N,) the mean along each run, weighed by how far the samples can be trusted."""
+    run = np.cumsum(lines.first == np.arange(len(lines.first))) - 1
+    mean = np.bincount(run, trust * values) / np.bincount(run, trust)
+    return mean[run]

@@ -8,10 +8,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..values import Array
 from .lines import Lines
 from .shared import SAMPLES_PER_PEN
-
-Array = np.ndarray
 
 _ARM = 1.5  # pen widths of line on both sides of a corner that are looked at
 _CORNER = np.radians(38.0)  # least turn of a corner over the whole arm

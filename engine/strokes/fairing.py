@@ -8,11 +8,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..values import Array
 from .corners import MARGIN as CORNER_MARGIN
 from .lines import Lines, Pieces
 from .shared import SAMPLES_PER_PEN
-
-Array = np.ndarray
 
 WIDEST = 2.5  # pen widths; sigma at smoothing 1
 _JOINT = 0.75  # pen widths; least sigma where a stroke runs through a junction

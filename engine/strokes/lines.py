@@ -7,17 +7,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arrays.ragged import count_up
+from ..values import Array
 from .shared import Page
 from .walk import Walk
-
-Array = np.ndarray
 
 
 @dataclass(frozen=True, eq=False)
 class Lines:
     """Strokes as runs of samples; a closed stroke is continued round its seam on both sides.
 
-    sample: (N,) index into the samples of the page.
+    sample: (N,) index into the samples of the page, and branch: (N,) the branch it is on.
     first, last: (N,) index of the first and last sample of the run that each sample is in.
     joint: (N,) bool; a vertex of the graph that the stroke runs through.
     start: (S,) where the stroke itself begins in its run, and
@@ -25,6 +25,7 @@ class Lines:
     """
 
     sample: Array
+    branch: Array
     first: Array
     last: Array
     joint: Array
@@ -38,16 +39,16 @@ class Lines:
         steps = np.array([len(w.halves) for w in walks])
         closed = np.array([w.closed for w in walks])
         count = np.diff(page.offsets)[half >> 1] - 1  # the last sample is the next one's first
-        inside = _ramp(count)
+        inside = count_up(count)
         of_half = np.repeat(np.arange(len(half)), count)
         backward = (half & 1)[of_half] == 1
         branch = half[of_half] >> 1
+        joint = (inside == 0) & page.crossed[half[of_half]]  # a corner is no junction
         sample = np.where(
             backward, page.offsets[branch + 1] - 1 - inside, page.offsets[branch] + inside
         )
-        joint = (inside == 0) & ~page.lonely[branch]  # where a circle begins is no junction
-        size = np.add.reduceat(count, np.concatenate([[0], np.cumsum(steps)[:-1]]))
-        origin = np.concatenate([[0], np.cumsum(size)[:-1]])
+        size = np.add.reduceat(count, np.cumsum(steps) - steps)
+        origin = np.cumsum(size) - size
 
         # One more sample at the end of an open stroke; for a closed one the first again.
         final = half[np.cumsum(steps) - 1]
@@ -55,12 +56,13 @@ class Lines:
         before = np.where(closed, margin, 0)
         total = size + 1 + 2 * before
         run = np.repeat(np.arange(len(walks)), total)
-        place = _ramp(total) - before[run]
+        place = count_up(total) - before[run]
         at_tip = ~closed[run] & (place == size[run])
         source = origin[run] + np.where(at_tip, 0, place % size[run])
         begin = np.cumsum(total) - total
         return cls(
             sample=np.where(at_tip, tip[run], sample[source]),
+            branch=np.where(at_tip, (final >> 1)[run], branch[source]),
             first=begin[run],
             last=(begin + total - 1)[run],
             joint=joint[source] & (closed[run] | ((place > 0) & ~at_tip)),
@@ -79,7 +81,7 @@ class Pieces:
         count = last - first + 1 + 2 * margin
         of_piece = np.repeat(np.arange(len(first)), count)
         first, last = first[of_piece], last[of_piece]
-        place = first - margin + _ramp(count)
+        place = first - margin + count_up(count)
         self.margin = margin
         self.inside = (place >= first) & (place <= last)
         self._edge = np.clip(place, first, last)
@@ -108,8 +110,3 @@ class Pieces:
     def put(self, values: Array, into: Array) -> None:
         """Write the insides back to where they came from."""
         into[self._edge[self.inside]] = values[self.inside]
-
-
-def _ramp(count: Array) -> Array:
-    """0, 1, ..., count[0] - 1, 0, 1, ..., count[1] - 1, ..."""
-    return np.arange(count.sum()) - np.repeat(np.cumsum(count) - count, count)

@@ -9,16 +9,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arrays.two_clusters import finer_pen
 from ..ink.palette import Inks
 from ..ink.pencil import undimmed
 from ..settings import Settings
-from ..values import PlanarGraph
-
-Array = np.ndarray
+from ..values import Array, PlanarGraph
 
 SAMPLES_PER_PEN = 4  # samples along a line of one pen width
 _BLOB = 1.0  # pen widths around a junction where other lines spoil the width; twice that to be sure
 _UNKNOWN = 4.0  # px
+# Mean change of opacity from point to point of a line: ink has up to 0.0073, pencil and charcoal
+# 0.012 and more (held-out pages of all media).
+_GRAIN = 0.0095
 _FULL_INK = 60  # percentile of ink that counts as opaque
 
 
@@ -31,8 +33,9 @@ class Page:
     points: (M, 2) float64; branch b has the samples offsets[b]:offsets[b + 1].
     widths, opacity: (M,) float64; trust: (M,) weight in [0, 1], 0 where a junction spoils them.
     length: (B,) px.
-    lonely: (B,) bool; the branch is a whole line that hangs on nothing.
+    crossed: (2B,) bool; the half-branch starts at a junction.
     inks: the colours of the page.
+    solid: (K,) bool for each of them; its strokes are opaque.
     """
 
     pen: float
@@ -42,15 +45,16 @@ class Page:
     opacity: Array
     trust: Array
     length: Array
-    lonely: Array
+    crossed: Array
     inks: Inks
+    solid: Array
     settings: Settings
 
     @classmethod
     def of(cls, graph: PlanarGraph, settings: Settings) -> Page:
         """Sample a graph; without widths, its lines are `_UNKNOWN` px wide."""
         widths = np.full(len(graph.points), _UNKNOWN) if graph.widths is None else graph.widths
-        pen = max(float(np.median(widths)), 0.1) if len(widths) else _UNKNOWN
+        pen = max(float(np.median(finer_pen(widths))), 0.1) if len(widths) else _UNKNOWN
         size = np.diff(graph.offsets)
         branch = np.repeat(np.arange(graph.branch_count), size)
         points = graph.points.astype(np.float64)
@@ -88,7 +92,6 @@ class Page:
         opacity = np.ones(len(points))
         if graph.strength is not None:
             opacity = _opacity(undimmed(graph.strength, widths), inks.ink[branch])
-        free = (graph.degrees[graph.ends] <= 1).all(1)
         return cls(
             pen=pen,
             points=at(points),
@@ -97,10 +100,23 @@ class Page:
             opacity=at(opacity)[:, 0],
             trust=np.clip(near / (_BLOB * pen) - 1.0, 0.0, 1.0),
             length=length,
-            lonely=free | (graph.degrees[graph.ends] == 2).all(1),
+            crossed=graph.degrees[graph.half_vertex] >= 3,
             inks=inks,
+            solid=_solid(opacity, branch, inks, settings.opacity),
             settings=settings,
         )
+
+
+def _solid(opacity: Array, branch: Array, inks: Inks, wanted: str) -> Array:
+    """(K,) bool: the inks whose strokes are opaque; by itself, those that cover evenly."""
+    if wanted != "auto":
+        return np.full(len(inks.palette), wanted == "solid")
+    # Pencil and charcoal catch on the grain of the paper: their strength wavers within a line.
+    step = np.abs(np.diff(opacity, prepend=opacity[:1]))
+    within = np.diff(branch, prepend=-1) == 0
+    count = np.bincount(inks.ink[branch[within]], minlength=len(inks.palette))
+    wavers = np.bincount(inks.ink[branch[within]], step[within], len(inks.palette))
+    return wavers < _GRAIN * np.maximum(count, 1)
 
 
 def _opacity(ink: Array, of: Array) -> Array:

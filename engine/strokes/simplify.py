@@ -8,7 +8,8 @@ from __future__ import annotations
 
 import numpy as np
 
-Array = np.ndarray
+from ..arrays.ragged import ranges
+from ..values import Array
 
 _STEPS = 32  # of the tolerance, to which errors are rounded up; see `worst_of`
 _EVEN = 24  # rounds after which stretches are halved, so that no line costs more than n log n
@@ -47,7 +48,7 @@ def runs(first: Array, last: Array) -> tuple[Array, Array, Array]:
     size = last - first + 1
     begin = np.cumsum(size) - size
     stretch = np.repeat(np.arange(len(size)), size)
-    return first[stretch] + np.arange(size.sum()) - begin[stretch], stretch, begin
+    return ranges(first, size), stretch, begin
 
 
 def worst_of(error: Array, tolerance: float, begin: Array, sample: Array) -> tuple[Array, Array]:

@@ -11,9 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import NamedTuple
 
-import numpy as np
-
-Array = np.ndarray
+from ..values import Array
 
 
 class Walk(NamedTuple):

@@ -14,6 +14,7 @@ from ..errors import InvoluteError
 
 FOLDER = Path(__file__).resolve().parent
 DIGESTS = "digests.json"
+LINEAGE = "lineage.json"  # which runs of training they are from
 _NO_WEIGHTS = frozenset({".py", ".md"})
 
 
@@ -24,7 +25,7 @@ def names(folder: Path = FOLDER) -> list[str]:
         for path in folder.iterdir()
         if path.is_file()
         and path.suffix not in _NO_WEIGHTS
-        and path.name != DIGESTS
+        and path.name not in (DIGESTS, LINEAGE)
         and not path.name.startswith(".")
     )
 

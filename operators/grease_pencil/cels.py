@@ -11,11 +11,13 @@ from collections.abc import Iterator, Sequence
 import bpy
 import numpy as np
 
-from .core.stroke_arrays import FORMATS, POLY, WEIGHT, Column, Curves, column
+from .core.map_fit import Places, Shapes
+from .core.stroke_arrays import BEZIER, FORMATS, HALF, POLY, TRACE, WEIGHT, Column, Curves, column
 from .vertex_weights import set_weights
 
 Array = np.ndarray
 
+_SIDES = ("left", "right")
 _TYPE_NAMES = {0: "CATMULL_ROM", 1: "POLY", 2: "BEZIER", 3: "NURBS"}
 
 # --- data-blocks ---------------------------------------------------------------------------------
@@ -31,6 +33,14 @@ def collection() -> bpy.types.bpy_prop_collection:
 def is_grease_pencil(obj: bpy.types.Object | None) -> bool:
     """Is there an object, and is it a Grease Pencil object?"""
     return obj is not None and obj.type == "GREASEPENCIL"
+
+
+def is_locked(layer: bpy.types.bpy_struct) -> bool:
+    """Did the artist lock the layer, or a group that it is in?"""
+    group = layer.parent_group
+    while group is not None and not group.lock:
+        group = group.parent_group
+    return layer.lock or group is not None
 
 
 def cels_at(data: bpy.types.ID, frame: int) -> Iterator[tuple[bpy.types.bpy_struct, object]]:
@@ -67,11 +77,46 @@ def read(cel: object) -> Curves:
 
 
 def read_column(cel: object, name: str) -> Array | None:
-    """One attribute of the strokes, (n,), or None where there is none."""
+    """One INT attribute of the strokes, (n,), or None where there is none of that type."""
     attribute = cel.attributes.get(name)
-    if attribute is None:
+    if attribute is None or (attribute.data_type, attribute.domain) != ("INT", "CURVE"):
         return None
     return _get(attribute, _strokes_and_points(cel)[0]).values[:, 0]
+
+
+def read_places(cel: object) -> Places:
+    """Where the strokes of a cel lie and what they were traced from."""
+    count, total = _strokes_and_points(cel)
+    offsets = np.zeros(count + 1, np.int32)
+    if count:
+        cel.curve_offsets.foreach_get("value", offsets)
+    none = np.zeros(count, np.int32)
+    keys, halves = (read_column(cel, name) for name in (TRACE, HALF))
+    return Places(
+        offsets,
+        _get(cel.attributes["position"], total).values if total else np.zeros((0, 3)),
+        none if keys is None else keys,
+        none if halves is None else halves,
+    )
+
+
+def read_shapes(cel: object) -> Shapes:
+    """The same with their shapes, for drawing them."""
+    places = read_places(cel)
+    count, total = len(places.keys), len(places.points)
+    cyclic, kinds = (
+        _typed(cel, name, kind, "CURVE", count)
+        for name, kind in (("cyclic", "BOOLEAN"), ("curve_type", "INT8"))
+    )
+    curved = kinds.reshape(-1) == BEZIER
+    handles = None
+    if curved.any():
+        both = [_typed(cel, f"handle_{side}", "FLOAT_VECTOR", "POINT", total) for side in _SIDES]
+        handles = np.stack(both, axis=1)
+    cyclic = cyclic.reshape(-1).astype(bool)
+    return Shapes(
+        places.offsets, places.points, places.keys, places.halves, cyclic, curved, handles
+    )
 
 
 def set_column(cel: object, name: str, values: Array) -> None:
@@ -114,6 +159,14 @@ def replace(cel: object, removed: Sequence[int], added: Curves, slots: Sequence[
 
 
 # --- details -------------------------------------------------------------------------------------
+
+
+def _typed(cel: object, name: str, kind: str, domain: str, size: int) -> Array:
+    """(size, k) values of an attribute; zeros where there is none of that type."""
+    attribute = cel.attributes.get(name)
+    if attribute is None or (attribute.data_type, attribute.domain) != (kind, domain):
+        return column(kind, np.zeros(size * FORMATS[kind][2])).values
+    return _get(attribute, size).values
 
 
 def _get(attribute: bpy.types.Attribute, size: int) -> Column:

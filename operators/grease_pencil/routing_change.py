@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ...engine import InvoluteError
+from ..language import message
 from . import cels, state
-from .core.splice import plan
+from .core.splice import Edit, plan
 from .core.stroke_arrays import TRACE, column, concatenate
 from .vertex_weights import with_weights
 
@@ -36,17 +37,32 @@ def change_routing(
     """
     if not data.is_editable:
         raise InvoluteError("This drawing is linked from another file; make it local to change it.")
-    trace = state.load(data, key)
+    trace = state.load(data, key, frame)
+    trace = replace(trace, pixel_map=state.pixel_map_at(data, frame, trace))
     new = state.settled(data, key, how(trace.drawing))
-    shown = [cel for _, cel in cels.cels_at(data, frame)]
+    layers, shown = zip(*cels.cels_at(data, frame), strict=True)
     edits = []
     if (new.routing.partner != trace.drawing.routing.partner).any():
         there = with_weights(data, frame, [cels.read(cel) for cel in shown])
         edits = plan(trace.drawing, new, there, key, trace.pixel_map)
-    trace = state.separate(data, frame, trace)
+        _need_open(layers, edits)
+    own = state.own_key(data, frame, trace)
     for cel, edit in zip(shown, edits, strict=False):
         if edit.removed or edit.added:
             added = concatenate(edit.added)
-            added.curves[TRACE] = column("INT", np.full(len(added), trace.key))
+            added.curves[TRACE] = column("INT", np.full(len(added), own.key))
             cels.replace(cel, edit.removed, added, edit.slots)
-    return state.store(data, replace(trace, drawing=new))
+    return state.store(data, frame, trace, replace(own, drawing=new))
+
+
+def _need_open(layers: Sequence[bpy.types.bpy_struct], edits: Sequence[Edit]) -> None:
+    """What is locked is not to be changed.
+
+    Raises:
+        InvoluteError: strokes of a locked layer would have to be.
+    """
+    for layer, edit in zip(layers, edits, strict=True):
+        if edit.removed and cels.is_locked(layer):
+            raise InvoluteError(
+                message("The layer {name!r} is locked; unlock it to reroute.", name=layer.name)
+            )

@@ -4,10 +4,12 @@ So it is saved, appended, duplicated and undone together with the strokes. Layer
 can't hold such data, and artists rename and move them: instead every traced stroke carries the key
 of its drawing, and the data-block holds an ID property
 
-    data["involute"] = {"version": 1, "traces": {key: {
-        "drawing": bytes, "base": str,      the engine's own JSON, compressed, and its hash
-        "routing": bytes, "stamp": str,     what was rerouted and locked since; hash of it all
-        "placement": 9 floats, "source": str}}}
+    data["involute"] = {"version": 1, "traces": {key: entry}}          see `stored_trace`
+
+The strokes are the truth. Undo in Edit Mode takes strokes back, but no ID properties: therefore
+strokes are marked with the routing that they are in, and the entry remembers earlier ones. Objects
+are joined and separated, and only strokes move: the entry of a key is found in whatever data-block
+has it, and where the pixels lie is looked up from the strokes (`core.map_fit`).
 
 Rerouting stores little and is quick, since the drawing stays as it was traced. Nothing is
 remembered in Python but decoded drawings, looked up by the hash of their content.
@@ -16,17 +18,18 @@ remembered in Python but decoded drawings, looked up by the hash of their conten
 from __future__ import annotations
 
 import zlib
-from collections import Counter, OrderedDict
+from collections import Counter
 from dataclasses import dataclass, replace
-from hashlib import blake2b
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ...engine import InvoluteError
-from . import cels
+from . import cels, stored_trace
+from .core.map_fit import fitted
 from .core.pixel_map import PixelMap
-from .core.stroke_arrays import TRACE
+from .core.stroke_arrays import HALF, ROUTING, TRACE
+from .stored_trace import UnsoundTraceError, reading
 
 if TYPE_CHECKING:
     import bpy
@@ -35,8 +38,6 @@ if TYPE_CHECKING:
 
 PROPERTY = "involute"
 VERSION = 1
-_MAX_DECODED = 16
-_decoded: OrderedDict[str, Drawing] = OrderedDict()
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,19 +53,16 @@ class Trace:
 
 def keys_at(data: bpy.types.ID, frame: int) -> list[int]:
     """The traces whose strokes are shown at a frame, those with most strokes first."""
-    if data.get(PROPERTY) is None:
-        return []
-    columns = [cels.read_column(drawing, TRACE) for _, drawing in cels.cels_at(data, frame)]
     counts: Counter[int] = Counter()
-    for column in columns:
+    for _, cel in cels.cels_at(data, frame):
+        column = cels.read_column(cel, TRACE)
         if column is None or not len(column):
             continue
         if (column == column[0]).all():  # as nearly always; this runs at every redraw
             counts[int(column[0])] += len(column)
         else:
             counts.update(_counted(column))
-    known = _traces(data)
-    return [key for key, _ in counts.most_common() if key and str(key) in known]
+    return [key for key, _ in counts.most_common() if key > 0 and _entry(data, key) is not None]
 
 
 def keys_at_exactly(data: bpy.types.ID, frame: int) -> list[int]:
@@ -75,31 +73,48 @@ def keys_at_exactly(data: bpy.types.ID, frame: int) -> list[int]:
 
 def pixel_map_in(data: bpy.types.ID) -> PixelMap | None:
     """Where the pixels of a traced drawing in this data-block lie; None when there is none."""
-    entry = next(iter(_traces(data).values()), None)
-    return PixelMap.from_list(entry["placement"]) if entry else None
+    with reading():
+        for entry in _traces(data).values():
+            return stored_trace.pixel_map_of(entry)
+    return None
 
 
-def load(data: bpy.types.ID, key: int) -> Trace:
+def load(data: bpy.types.ID, key: int, frame: int | None = None) -> Trace:
     """The trace of that key.
 
+    Args:
+        frame: look in which routing the strokes of that frame are; None = the latest.
+
     Raises:
+        UnsoundTraceError: what is stored of it is damaged.
         InvoluteError: there is none, or a newer Involute wrote it.
     """
-    entry = _traces(data).get(str(key))
+    entry = _entry(data, key)
     if entry is None:
         raise InvoluteError("This drawing was not traced by Involute.")
-    stamp = entry["stamp"]
-    drawing = _decoded.get(stamp)
-    if drawing is None:
-        drawing = _with_routing(_base(entry), entry["routing"])
-        _remember(stamp, drawing)
-    return Trace(key, drawing, PixelMap.from_list(entry["placement"]), entry["source"], stamp)
+    with reading():
+        stamp = stored_trace.stamp_of(entry)
+        if frame is not None:
+            stamp = stored_trace.stamp_marked(entry, _mark(data, frame, key))
+        drawing = stored_trace.drawing_of(entry, stamp)
+        pixel_map = stored_trace.pixel_map_of(entry)
+        return Trace(key, drawing, pixel_map, stored_trace.source_of(entry), stamp)
 
 
-def stamp(data: bpy.types.ID, key: int) -> str:
-    """A hash of the trace's content: the same as long as nothing was changed."""
-    entry = _traces(data).get(str(key))
-    return entry["stamp"] if entry else ""
+def pixel_map_at(data: bpy.types.ID, frame: int, trace: Trace) -> PixelMap:
+    """Where the pixels of a trace lie now: a transform that was applied moves strokes only."""
+    shown = [cels.read_places(cel) for _, cel in cels.cels_at(data, frame)]
+    return fitted(trace.drawing, shown, trace.key, trace.pixel_map)
+
+
+def halves_at(data: bpy.types.ID, frame: int, key: int) -> np.ndarray:
+    """The first half-branches of the strokes of a trace that are there, ascending."""
+    found = [np.zeros(0, np.int32)]
+    for _, cel in cels.cels_at(data, frame):
+        keys, halves = (cels.read_column(cel, name) for name in (TRACE, HALF))
+        if keys is not None and halves is not None:
+            found.append(halves[(keys == key) & (halves > 0)] - 1)
+    return np.unique(np.concatenate(found))
 
 
 def settled(data: bpy.types.ID, key: int, drawing: Drawing) -> Drawing:
@@ -108,60 +123,77 @@ def settled(data: bpy.types.ID, key: int, drawing: Drawing) -> Drawing:
     In a sequence strokes start and run as on the frame before; one that was rerouted and is back as
     it was traced gets that start and direction back, too.
     """
-    base = _base(_traces(data)[str(key)])
-    if not _differs_in_routing_only(base, drawing):
+    with reading():
+        base = stored_trace.base_of(_entry(data, key))
+    if not stored_trace.differs_in_routing_only(base, drawing):
         return drawing
     return base.with_routing(drawing.routing.partner, drawing.routing.locked)
 
 
 def add(data: bpy.types.ID, drawing: Drawing, pixel_map: PixelMap, source: str) -> int:
     """Store a new trace and return its key."""
+    traces = _writable(data)
     key = _free_key(data, drawing, source)
-    store(data, Trace(key, drawing, pixel_map, source, ""))
+    traces[str(key)], _ = stored_trace.made(drawing, pixel_map, source)
     return key
 
 
-def store(data: bpy.types.ID, trace: Trace) -> Trace:
-    """Store a trace under its key, in place of what was there; return it with its stamp."""
-    root = data.get(PROPERTY)
-    if root is None:
-        data[PROPERTY] = {"version": VERSION, "traces": {}}
-        root = data[PROPERTY]
-    old = root["traces"].get(str(trace.key))
-    if old is not None and _differs_in_routing_only(_base(old), trace.drawing):
-        blob, base, routing = old["drawing"], old["base"], _routing_of(trace.drawing)
+def store(data: bpy.types.ID, frame: int, before: Trace, after: Trace) -> Trace:
+    """Store another routing of a trace, mark its strokes with it, and return it with its stamp.
+
+    Args:
+        before: the trace as it was loaded.
+        after: the same with another drawing, and the key that it is to have.
+    """
+    entry = _entry(data, before.key)
+    base = stored_trace.base_of(entry)
+    if stored_trace.differs_in_routing_only(base, after.drawing):
+        entry, stamp = stored_trace.rerouted(
+            entry, before.drawing, after.drawing, after.pixel_map, before.stamp
+        )
     else:
-        blob, routing = _encode(trace.drawing), b""
-        base = _hash(blob)
-        _remember(base, trace.drawing)
-    stamp = _hash(base.encode() + routing)
-    root["traces"][str(trace.key)] = {
-        "drawing": blob,
-        "base": base,
-        "routing": routing,
-        "stamp": stamp,
-        "placement": trace.pixel_map.as_list(),
-        "source": trace.source,
-    }
-    _remember(stamp, trace.drawing)
-    return replace(trace, stamp=stamp)
+        entry, stamp = stored_trace.made(after.drawing, after.pixel_map, after.source)
+    _writable(data)[str(after.key)] = entry
+    for _, cel in cels.cels_at(data, frame):
+        mine = cels.read_column(cel, TRACE)
+        if mine is not None and (mine == after.key).any():
+            marks = cels.read_column(cel, ROUTING)
+            marks = np.zeros(len(mine), np.int32) if marks is None else marks
+            marks[mine == after.key] = stored_trace.mark_of(stamp)
+            cels.set_column(cel, ROUTING, marks)
+    return replace(after, stamp=stamp)
 
 
-def separate(data: bpy.types.ID, frame: int, trace: Trace) -> Trace:
-    """Make the trace of one keyframe its own when copies of the keyframe share it.
+def own_key(data: bpy.types.ID, frame: int, trace: Trace) -> Trace:
+    """Give the trace of one keyframe a key of its own when copies of the keyframe share it.
 
     A copied keyframe carries the same keys; a change to one must not change the other.
     """
-    here = [drawing for _, drawing in cels.cels_at(data, frame)]
-    everywhere = list(cels.all_cels(data))
-    if _users(everywhere, trace.key) <= _users(here, trace.key):
+    here = [cel for _, cel in cels.cels_at(data, frame)]
+    if _users(list(cels.all_cels(data)), trace.key) <= _users(here, trace.key):
         return trace
     key = _free_key(data, trace.drawing, f"{trace.source}@{frame}")
-    for drawing in here:
-        column = cels.read_column(drawing, TRACE)
+    for cel in here:
+        column = cels.read_column(cel, TRACE)
         if column is not None and (column == trace.key).any():
-            cels.set_column(drawing, TRACE, np.where(column == trace.key, key, column))
-    return store(data, replace(trace, key=key))
+            cels.set_column(cel, TRACE, np.where(column == trace.key, key, column))
+    return replace(trace, key=key)
+
+
+def adopt(data: bpy.types.ID) -> None:
+    """Copy what the data-block's strokes need from the data-blocks that they came from.
+
+    Joining and separating objects moves strokes, not ID properties; a file that is saved with one
+    of the objects alone must hold the junctions of its strokes.
+    """
+    wanted = set()
+    for cel in cels.all_cels(data):
+        column = cels.read_column(cel, TRACE)
+        wanted |= set() if column is None else set(np.unique(column).tolist())
+    for key in sorted(key for key in wanted if key > 0):
+        entry = _entry(data, key)
+        if entry is not None and str(key) not in _traces(data):
+            _writable(data)[str(key)] = entry.to_dict()
 
 
 def _counted(column: np.ndarray) -> dict[int, int]:
@@ -169,19 +201,67 @@ def _counted(column: np.ndarray) -> dict[int, int]:
     return dict(zip(keys.tolist(), counts.tolist(), strict=True))
 
 
-def _users(drawings: list[object], key: int) -> int:
-    """How many of the drawings have strokes of that trace."""
-    columns = (cels.read_column(drawing, TRACE) for drawing in drawings)
+def _mark(data: bpy.types.ID, frame: int, key: int) -> int:
+    """The routing that most of the strokes are marked with; 0 = they have no mark."""
+    counts: Counter[int] = Counter()
+    for _, cel in cels.cels_at(data, frame):
+        keys, marks = (cels.read_column(cel, name) for name in (TRACE, ROUTING))
+        if keys is not None and marks is not None:
+            counts.update(_counted(marks[keys == key]))
+    return counts.most_common(1)[0][0] if counts else 0
+
+
+def _users(some: list[object], key: int) -> int:
+    """How many of the cels have strokes of that trace."""
+    columns = (cels.read_column(cel, TRACE) for cel in some)
     return sum(1 for c in columns if c is not None and (c == key).any())
 
 
 def _traces(data: bpy.types.ID) -> Any:
+    """The entries of a data-block by their keys; an empty mapping where there are none.
+
+    Raises:
+        UnsoundTraceError: it is not what Involute writes.
+        InvoluteError: a newer Involute wrote it.
+    """
     root = data.get(PROPERTY)
     if root is None:
         return {}
-    if root["version"] > VERSION:
+    with reading():
+        version, traces = root["version"], root["traces"]
+        if not isinstance(version, int) or not hasattr(traces, "to_dict"):
+            raise TypeError
+    if version > VERSION:
         raise InvoluteError("A newer Involute traced this drawing; update the extension.")
-    return root["traces"]
+    return traces
+
+
+def _entry(data: bpy.types.ID, key: int) -> Any:
+    """What is stored for a key, here or in the data-block that the strokes came from."""
+    name = str(key)
+    own = _traces(data)
+    if name in own:
+        return own[name]
+    for other in cels.collection():
+        if other != data and other.get(PROPERTY) is not None:
+            try:
+                found = _traces(other)
+            except InvoluteError:  # damaged, or of a newer version: nothing for us
+                continue
+            if name in found:
+                return found[name]
+    return None
+
+
+def _writable(data: bpy.types.ID) -> Any:
+    """The entries, made anew where there are none or nothing that can be read."""
+    try:
+        if data.get(PROPERTY) is not None:
+            return _traces(data)
+    except UnsoundTraceError:
+        pass
+    data[PROPERTY] = {"version": VERSION, "traces": {}}
+    return data[PROPERTY]["traces"]
 
 
 def _free_key(data: bpy.types.ID, drawing: Drawing, source: str) -> int:
@@ -189,66 +269,8 @@ def _free_key(data: bpy.types.ID, drawing: Drawing, source: str) -> int:
 
     Keys must also differ between data-blocks, since their objects may be joined.
     """
-    traces = _traces(data)
     seed = f"{data.name}|{source}|{len(drawing.strokes)}|{drawing.size}"
     key = zlib.crc32(seed.encode()) & 0x7FFFFFFF or 1
-    while str(key) in traces:
+    while _entry(data, key) is not None:
         key = key % 0x7FFFFFFF + 1
     return key
-
-
-def _base(entry: Any) -> Drawing:
-    """The drawing of an entry as it was traced."""
-    drawing = _decoded.get(entry["base"])
-    if drawing is None:
-        drawing = _decode(entry["drawing"])
-        _remember(entry["base"], drawing)
-    return drawing
-
-
-def _differs_in_routing_only(base: Drawing, drawing: Drawing) -> bool:
-    """Was the drawing made from that one by rerouting and locking? Then all else is shared."""
-    return (
-        base.graph is drawing.graph
-        and base.routing.alternatives is drawing.routing.alternatives
-        and base.fills is drawing.fills
-    )
-
-
-def _routing_of(drawing: Drawing) -> bytes:
-    """What rerouting and locking change: partners as int32, then locks as bits, compressed."""
-    routing = drawing.routing
-    partner = routing.partner.astype("<i4").tobytes()
-    return zlib.compress(partner + np.packbits(routing.locked).tobytes(), 3)
-
-
-def _with_routing(base: Drawing, routing: bytes) -> Drawing:
-    if not routing:
-        return base
-    raw, halves = zlib.decompress(routing), len(base.routing.partner)
-    partner = np.frombuffer(raw, "<i4", halves).astype(np.int32)
-    bits = np.unpackbits(np.frombuffer(raw, np.uint8, offset=4 * halves))
-    return base.with_routing(partner, bits[: len(base.routing.locked)].astype(bool))
-
-
-def _hash(content: bytes) -> str:
-    return blake2b(content, digest_size=16).hexdigest()
-
-
-def _remember(stamp: str, drawing: Drawing) -> None:
-    _decoded[stamp] = drawing
-    _decoded.move_to_end(stamp)
-    while len(_decoded) > _MAX_DECODED:
-        _decoded.popitem(last=False)
-
-
-def _encode(drawing: Drawing) -> bytes:
-    from ...engine.formats import drawing_json
-
-    return zlib.compress(drawing_json.dumps(drawing).encode("utf-8"), 3)
-
-
-def _decode(blob: bytes) -> Drawing:
-    from ...engine.formats import drawing_json
-
-    return drawing_json.read(zlib.decompress(blob).decode("utf-8"))

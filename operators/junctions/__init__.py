@@ -1,4 +1,5 @@
 """What is done to the junctions of a traced drawing: one file per verb.
 
-`junction_operator` is what the verbs share; each goes through `grease_pencil.routing_change`.
+`junction_operator` is what the verbs share, `card_choice` what those share that open cards. Each
+goes through `grease_pencil.routing_change`.
 """

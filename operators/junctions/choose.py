@@ -6,23 +6,12 @@ import bpy
 from bpy.props import BoolProperty, IntProperty
 
 from ..language import label
-from ..view.card_layout import card_at
-from ..view.on_screen import cards_of, junction_under
-from ..view.view_state import Shown, make_current, redraw, shown_in, view_of
-from .junction_operator import JunctionOperator
-
-_STEPS = {
-    "WHEELUPMOUSE": -1,
-    "WHEELDOWNMOUSE": 1,
-    "LEFT_ARROW": -1,
-    "RIGHT_ARROW": 1,
-    "UP_ARROW": -1,
-    "DOWN_ARROW": 1,
-}
-_DIGITS = ("ONE", "TWO", "THREE", "FOUR", "FIVE", "SIX", "SEVEN", "EIGHT", "NINE")
+from ..view.on_screen import junction_under
+from ..view.view_state import Shown, make_current, shown_in
+from .card_choice import CardChoice
 
 
-class INVOLUTE_OT_choose(JunctionOperator, bpy.types.Operator):
+class INVOLUTE_OT_choose(CardChoice, bpy.types.Operator):
     """Show the alternatives of a junction as cards: point to preview, click to apply"""
 
     bl_idname = "involute.choose"
@@ -53,84 +42,38 @@ class INVOLUTE_OT_choose(JunctionOperator, bpy.types.Operator):
         shown = shown_in(context)
         if shown is None or shown.junction is None:
             return {"CANCELLED"}
-        shown.view.choosing = True
-        context.workspace.status_text_set(
+        return self.begin(
+            context,
             label(
                 "Point at a card to preview, click or Enter to apply, wheel or arrows for the "
                 "next, L locks, Esc leaves"
-            )
+            ),
         )
-        context.window_manager.modal_handler_add(self)
-        redraw(context)
-        return {"RUNNING_MODAL"}
 
-    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Point, step, apply or leave."""
-        shown = shown_in(context)
-        if shown is None or shown.junction is None or not shown.view.choosing:
-            return self._leave(context, {"CANCELLED"})
-        ways = len(shown.junction.alternatives)
-        mouse = event.mouse_region_x, event.mouse_region_y
-        if event.type == "MOUSEMOVE":
-            self._point(context, shown, mouse)
-        elif event.value != "PRESS":
-            return {"PASS_THROUGH"}
-        elif event.type in _STEPS:
-            shown.view.preview = step(shown.view.preview, _STEPS[event.type], ways)
-            redraw(context)
-        elif event.type in _DIGITS[:ways]:
-            return self._apply(context, shown, _DIGITS.index(event.type))
-        elif event.type in {"RET", "NUMPAD_ENTER"} and shown.view.preview >= 0:
-            return self._apply(context, shown, shown.view.preview)
-        elif event.type == "LEFTMOUSE":
-            card = card_at(cards_of(context, shown), *mouse)
-            if card >= 0:
-                return self._apply(context, shown, card)
-            found = junction_under(context, mouse)
-            if found is None:
-                return self._leave(context, {"CANCELLED"})
-            make_current(context, *found)
-        elif event.type == "L":
-            index = shown.junction.index
-            locked = shown.junction.locked
-            result = self.change(context, lambda d: d.unlock(index) if locked else d.lock(index))
-            return self._leave(context, result)
-        elif event.type in {"ESC", "RIGHTMOUSE"}:
-            return self._leave(context, {"CANCELLED"})
-        else:
-            return {"PASS_THROUGH"}
+    def decide(self, context: bpy.types.Context, shown: Shown, alternative: int) -> set[str]:
+        """Apply the alternative and close the cards."""
+        self.junction, self.alternative = shown.junction.index, alternative
+        return self.leave(context, self.execute(context))
+
+    def lock(self, context: bpy.types.Context, shown: Shown) -> set[str]:
+        """Lock or unlock the junction and close the cards."""
+        index, locked = shown.junction.index, shown.junction.locked
+        result = self.change(context, lambda d: d.unlock(index) if locked else d.lock(index))
+        return self.leave(context, result)
+
+    def click_elsewhere(
+        self, context: bpy.types.Context, shown: Shown, mouse: tuple[float, float]
+    ) -> set[str]:
+        """Go to the junction there; leave where there is none."""
+        found = junction_under(context, mouse)
+        if found is None:
+            return self.leave(context, {"CANCELLED"})
+        make_current(context, *found)
         return {"RUNNING_MODAL"}
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Adjust Last Operation: another alternative for the same junction."""
         return self.apply_alternative(context, self.junction, self.alternative)
-
-    def _point(self, context: bpy.types.Context, shown: Shown, mouse: tuple[float, float]) -> None:
-        """The card under the mouse is previewed; off the cards, what the wheel chose stays."""
-        card = card_at(cards_of(context, shown), *mouse)
-        was_on_card = getattr(self, "_on_card", False)
-        self._on_card = card >= 0
-        if card >= 0 or was_on_card:
-            shown.view.preview = card
-            redraw(context)
-
-    def _apply(self, context: bpy.types.Context, shown: Shown, alternative: int) -> set[str]:
-        self.junction, self.alternative = shown.junction.index, alternative
-        return self._leave(context, self.execute(context))
-
-    def _leave(self, context: bpy.types.Context, result: set[str]) -> set[str]:
-        view = view_of(context)
-        view.choosing, view.preview = False, -1
-        context.workspace.status_text_set(None)
-        redraw(context)
-        return result
-
-
-def step(preview: int, by: int, count: int) -> int:
-    """The next alternative to preview; the first step shows the best or the last one."""
-    if preview < 0:
-        return 0 if by > 0 else count - 1
-    return (preview + by) % count
 
 
 CLASSES = (INVOLUTE_OT_choose,)

@@ -1,4 +1,4 @@
-"""Drag from one line to another to join them; Alt-click a line to end it at its junction."""
+"""Drag from one line to another to join them; Ctrl-click a line to end it at its junction."""
 
 from __future__ import annotations
 

@@ -83,7 +83,7 @@ def look_at(context: bpy.types.Context, shown: Shown, junction: int) -> None:
     widths = drawing.graph.widths
     pen = float(np.median(widths)) if widths is not None and len(widths) else 3.0
     scale = max(shown.object.matrix_world.to_scale())
-    across = _CLOSE_UP * pen * shown.trace.pixel_map.unit * scale
+    across = _CLOSE_UP * pen * shown.pixel_map.unit * scale
     region_3d.view_distance = min(region_3d.view_distance, across)
 
 

@@ -9,9 +9,9 @@ from pathlib import Path
 import bpy
 
 from ...engine import InvoluteError
+from ...engine.formats.picture_kinds import SUFFIXES
 from ...engine.sequence import Frame, number_frames, number_pages
 from ..language import message
-from ..tracing.sources import SUFFIXES
 
 
 def frames_of_files(

@@ -17,12 +17,29 @@ from ..grease_pencil.core.pixel_map import PixelMap, front_view, on_empty
 from ..language import message
 from ..tracing.background import JobOperator
 from ..tracing.file_choice import ChosenFiles, FileChoice
-from ..tracing.placing import PlacingSettings, place_drawing, placing_values
+from ..tracing.placing import place_drawing, placing_values
 from ..tracing.settings_layout import draw_placing, draw_sequence, draw_settings
 from ..tracing.trace import new_object
-from ..tracing.trace_settings import TraceSettings, as_values, engine_settings
+from ..tracing.trace_settings import (
+    PlacingOptions,
+    TraceOptions,
+    as_values,
+    engine_settings,
+    take_from_sidebar,
+)
 from .playing import frames_of_empty, frames_of_files, plays_frames
 from .sequence_job import SequenceJob, parts_folder
+
+
+def resume_property() -> object:
+    """Trace a sequence again: the same choice in the file browser and for scripts."""
+    return BoolProperty(
+        name="Only What Changed",
+        description="Fill the active object; keyframes whose drawing has not changed stay as "
+        "they are, with all that was done to them",
+        default=False,
+        options={"SKIP_SAVE"},
+    )
 
 
 class SequenceSettings:
@@ -62,7 +79,7 @@ class SequenceSettings:
 
 
 class INVOLUTE_OT_trace_sequence(
-    JobOperator, ChosenFiles, SequenceSettings, PlacingSettings, TraceSettings, bpy.types.Operator
+    JobOperator, ChosenFiles, SequenceSettings, PlacingOptions, TraceOptions, bpy.types.Operator
 ):
     """Turn numbered drawings into keyframes of one Grease Pencil object, in the background"""
 
@@ -76,13 +93,7 @@ class INVOLUTE_OT_trace_sequence(
         subtype="DIR_PATH",
         options={"SKIP_SAVE"},
     )
-    resume: BoolProperty(
-        name="Only What Changed",
-        description="Fill the active object; keyframes whose drawing has not changed stay as "
-        "they are, with all that was done to them",
-        default=False,
-        options={"SKIP_SAVE"},
-    )
+    resume: resume_property()
 
     def draw(self, context: bpy.types.Context) -> None:
         """The settings in Adjust Last Operation."""
@@ -176,11 +187,12 @@ class INVOLUTE_OT_trace_sequence(
                 self.report({"ERROR"}, message("None of the frames could be traced."))
             return {"CANCELLED"}
         obj = bpy.data.objects.get(self._target)
-        if context.mode == "OBJECT" and obj is not None:
+        if obj is not None:
             for other in context.selected_objects:
                 other.select_set(False)
             obj.select_set(True)
-            context.view_layer.objects.active = obj
+            if context.mode == "OBJECT":
+                context.view_layer.objects.active = obj
         if job.unaligned:
             from ...command.sequence_command import unaligned
 
@@ -197,12 +209,19 @@ class INVOLUTE_OT_trace_sequence(
 
 
 class INVOLUTE_OT_import_sequence(
-    FileChoice, SequenceSettings, PlacingSettings, TraceSettings, bpy.types.Operator
+    FileChoice, SequenceSettings, PlacingOptions, TraceOptions, bpy.types.Operator
 ):
     """Choose a folder of numbered drawings, or some of them, and trace them as keyframes"""
 
     bl_idname = "involute.import_sequence"
     bl_label = "Trace Drawing Sequence"
+
+    resume: resume_property()
+
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """Ask for the folder, with the sidebar's settings beside it."""
+        take_from_sidebar(self, context)
+        return super().invoke(context, event)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Hand the chosen files to the trace."""
@@ -212,6 +231,7 @@ class INVOLUTE_OT_import_sequence(
         return self.hand_to(
             bpy.ops.involute.trace_sequence,
             directory=self.folder,
+            resume=self.resume,
             files=[{"name": name} for name in names],
             **sequence,
             **placing_values(self),
@@ -220,6 +240,8 @@ class INVOLUTE_OT_import_sequence(
 
     def draw(self, context: bpy.types.Context) -> None:
         """The settings in the file browser."""
+        self.layout.use_property_split = True
+        self.layout.prop(self, "resume")
         INVOLUTE_OT_trace_sequence.draw(self, context)
 
 

@@ -7,7 +7,12 @@ import bpy
 from ...engine import InvoluteError
 from .. import job as jobs
 from ..language import label, message
-from ..view.view_state import redraw
+from ..view.view_state import redraw_sidebars
+from .trace_settings import take_from_sidebar
+
+_TICK = 0.1  # seconds between two looks at the job
+# While one of these waits for the mouse, objects and undo steps must not come in between.
+_AT_WORK = ("TRANSFORM_OT", "GREASE_PENCIL_OT", "SCULPT_OT", "PAINT_OT", "MESH_OT", "CURVE_OT")
 
 
 def stage_of(job: jobs.Job) -> str:
@@ -25,6 +30,12 @@ class JobOperator:
         """Read all that Blender knows; what then runs needs nothing of it."""
         raise NotImplementedError
 
+    _repeats = False
+
+    def is_repeat(self) -> bool:
+        """Does a script or Adjust Last Operation run it, so that the view is not to move?"""
+        return self._repeats
+
     def take(self, context: bpy.types.Context, job: jobs.Job) -> None:
         """Use what has come so far."""
 
@@ -34,33 +45,44 @@ class JobOperator:
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Start the job and wait for it without holding Blender up."""
+        take_from_sidebar(self, context)
         if bpy.app.background:
             return self.execute(context)
         if jobs.current is not None:
             self.report({"ERROR"}, message("Another trace is running; wait for it or cancel it."))
             return {"CANCELLED"}
-        jobs.current = self._begun(context)
-        if jobs.current is None:
+        self._job = self._begun(context)
+        if self._job is None:
             return {"CANCELLED"}
-        jobs.current.start()
+        jobs.current = self._job
+        self._job.start()
+        self._shown, self._repeats = "", False
         manager = context.window_manager
-        self._timer = manager.event_timer_add(0.1, window=context.window)
+        self._timer = manager.event_timer_add(_TICK, window=context.window)
         if self.escape_cancels:
             manager.progress_begin(0, 100)
         manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
 
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Look in on the job at every tick; let all other events pass."""
-        job = jobs.current
-        if self.escape_cancels and event.type == "ESC" and event.value == "PRESS":
+        """Look in on the job at every tick; let all other events pass.
+
+        What has come is written only while the artist is not in the middle of something.
+        """
+        job = self._job
+        if jobs.current is not job:  # abandoned: see `job.abandon`
+            self._stop(context)
+            return {"CANCELLED"}
+        if self.escape_cancels and event.type == "ESC" and event.value == "PRESS" and job.running:
             job.cancel()
             return {"RUNNING_MODAL"}
         if event.type != "TIMER":
             return {"PASS_THROUGH"}
         alive = job.running  # before results are taken: what comes later is taken next time
-        self.take(context, job)
         self._show_progress(context, job)
+        if is_at_work(context):
+            return {"PASS_THROUGH"}
+        self.take(context, job)
         if alive:
             return {"PASS_THROUGH"}
         self._stop(context)
@@ -68,11 +90,12 @@ class JobOperator:
 
     def cancel(self, context: bpy.types.Context) -> None:
         """Blender itself ends the operator, for example when a file is opened."""
-        jobs.current.cancel()
+        self._job.cancel()
         self._stop(context)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Run the job at once, as scripts and the background want it."""
+        self._repeats = True
         job = self._begun(context)
         if job is None:
             return {"CANCELLED"}
@@ -89,20 +112,34 @@ class JobOperator:
 
     def _show_progress(self, context: bpy.types.Context, job: jobs.Job) -> None:
         """In the sidebar; on the cursor and in the status bar, too, while the artist waits."""
+        percent = round(100 * job.fraction)
+        said = label("{stage}, {percent} % (Esc cancels)", stage=stage_of(job), percent=percent)
+        if said == self._shown:
+            return
+        self._shown = said
         if self.escape_cancels:
-            percent = round(100 * job.fraction)
             context.window_manager.progress_update(percent)
-            said = label("{stage}, {percent} % (Esc cancels)", stage=stage_of(job), percent=percent)
             context.workspace.status_text_set(f"Involute: {said}")
-        redraw(context)
+        redraw_sidebars(context)
 
     def _stop(self, context: bpy.types.Context) -> None:
         context.window_manager.event_timer_remove(self._timer)
         if self.escape_cancels:
             context.window_manager.progress_end()
             context.workspace.status_text_set(None)
-        jobs.current = None
-        redraw(context)
+        if jobs.current is self._job:
+            jobs.current = None
+        redraw_sidebars(context)
+
+
+def is_at_work(context: bpy.types.Context) -> bool:
+    """Is the artist moving, drawing or sculpting something at this very moment?"""
+    windows = context.window_manager.windows
+    return any(
+        operator.bl_idname.startswith(_AT_WORK)
+        for window in windows
+        for operator in getattr(window, "modal_operators", ())
+    )
 
 
 class INVOLUTE_OT_cancel(bpy.types.Operator):
@@ -120,6 +157,21 @@ class INVOLUTE_OT_cancel(bpy.types.Operator):
         """Ask the job to stop."""
         jobs.current.cancel()
         return {"FINISHED"}
+
+
+def _abandon(*_: object) -> None:
+    jobs.abandon()
+
+
+def register() -> None:
+    """Opening a file ends what was traced for the one before."""
+    bpy.app.handlers.load_pre.append(bpy.app.handlers.persistent(_abandon))
+
+
+def unregister() -> None:
+    """End what is running: nobody will be there to take it."""
+    jobs.abandon()
+    bpy.app.handlers.load_pre.remove(_abandon)
 
 
 CLASSES = (INVOLUTE_OT_cancel,)

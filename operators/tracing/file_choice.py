@@ -8,7 +8,7 @@ import bpy
 from bpy.props import CollectionProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper
 
-from .sources import SUFFIXES
+from ...engine.formats.picture_kinds import SUFFIXES
 
 
 class ChosenFiles:

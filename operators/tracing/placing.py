@@ -5,16 +5,19 @@ from __future__ import annotations
 from math import pi
 from typing import TYPE_CHECKING, Any
 
-from bpy.props import EnumProperty, FloatProperty
-from mathutils import Matrix
+from bpy.props import BoolProperty, EnumProperty, FloatProperty
+from mathutils import Matrix, Vector
 
 from ...engine import InvoluteError
 from ..grease_pencil.core.pixel_map import PixelMap, front_view
+from ..view.framing import looks_through_camera
 
 if TYPE_CHECKING:
     import bpy
 
 _HEIGHT = 2.0  # metres, of a drawing whose size nobody asked for
+_SOLID = {"MESH", "CURVE", "SURFACE", "META", "FONT", "VOLUME"}
+_GAP = 0.1  # metres before what stands at the origin
 _DISTANCE = 5.0  # metres from a camera that the 3D cursor lies behind
 # A drawing lies in the XZ plane of its object; this lays it into an XY plane, seen from above.
 _INTO_XY = Matrix.Rotation(-pi / 2, 4, "X")
@@ -23,23 +26,35 @@ _INTO_XY = Matrix.Rotation(-pi / 2, 4, "X")
 class PlacingSettings:
     """Mixin: where new objects stand and how large they are."""
 
-    place: EnumProperty(
-        name="Place",
-        description="Where a new drawing stands; on an image Empty it always lies on the image",
-        items=[
-            ("FRONT", "Front View", "Upright at the world's origin"),
-            ("CAMERA", "Fit to Camera", "Fill the view of the scene's camera, facing it"),
-            ("PLANE", "Drawing Plane", "As the scene's Stroke Placement and Drawing Plane say"),
-        ],
-        default="FRONT",
-    )
-    pixels_per_metre: FloatProperty(
-        name="Pixels per Metre",
-        description="Size of a new drawing; 0 makes it 2 metres tall. Fit to Camera ignores it",
-        default=0.0,
-        min=0.0,
-        soft_max=10000.0,
-    )
+    __annotations__ = {
+        "place": EnumProperty(
+            name="Place",
+            description="Where a new drawing stands; on an image Empty it always lies on the image",
+            items=[
+                (
+                    "AUTO",
+                    "Automatic",
+                    "Fit to the camera while you look through it, else front view",
+                ),
+                ("FRONT", "Front View", "Upright at the world's origin, before what stands there"),
+                ("CAMERA", "Fit to Camera", "Fill the view of the scene's camera, facing it"),
+                ("PLANE", "Drawing Plane", "As the scene's Stroke Placement and Drawing Plane say"),
+            ],
+            default="AUTO",
+        ),
+        "pixels_per_metre": FloatProperty(
+            name="Pixels per Metre",
+            description="Size of a new drawing; 0 makes it 2 metres tall. Fit to Camera ignores it",
+            default=0.0,
+            min=0.0,
+            soft_max=10000.0,
+        ),
+        "show_scan": BoolProperty(
+            name="Scan Behind",
+            description="Show the picture behind the strokes that were traced from it",
+            default=True,
+        ),
+    }
 
 
 def placing_values(source: PlacingSettings) -> dict[str, Any]:
@@ -56,13 +71,27 @@ def place_drawing(
         InvoluteError: there is no camera to fit to.
     """
     height = size[1] / pixels_per_metre if pixels_per_metre else _HEIGHT
-    if place == "CAMERA":
+    if place == "CAMERA" or (place == "AUTO" and looks_through_camera(context)):
         height, matrix = _before_camera(context.scene, size)
     elif place == "PLANE":
         matrix = _drawing_plane(context)
     else:
-        matrix = Matrix()
+        width = height * size[0] / size[1]
+        matrix = Matrix.Translation((0.0, _before_others(context, width, height), 0.0))
     return front_view(size, height), matrix
+
+
+def _before_others(context: bpy.types.Context, width: float, height: float) -> float:
+    """How far to the front a drawing at the origin stands before what it would lie inside of."""
+    front = 0.0
+    for obj in context.visible_objects:
+        if obj.type in _SOLID:
+            corners = [obj.matrix_world @ Vector(corner) for corner in obj.bound_box]
+            low, high = (Vector(map(pick, zip(*corners, strict=True))) for pick in (min, max))
+            across = low.x < width / 2 and high.x > -width / 2
+            if across and low.z < height / 2 and high.z > -height / 2 and low.y <= 0 <= high.y:
+                front = min(front, low.y - _GAP)
+    return front
 
 
 def _before_camera(scene: bpy.types.Scene, size: tuple[int, int]) -> tuple[float, Matrix]:

@@ -10,12 +10,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ...engine import InvoluteError
+from ...engine.formats.picture_kinds import SUFFIXES
 from ..language import message
 
 if TYPE_CHECKING:
     import bpy
-
-SUFFIXES = (".png", ".jpg", ".jpeg", ".tif", ".tiff", ".webp", ".bmp")
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,12 +23,14 @@ class Source:
 
     picture: a path, or an (H, W, 4) float32 array in sRGB, 0..1.
     empty: name of the image Empty that shows it, or None.
+    image: name of the image data-block that holds it, or None.
     """
 
     name: str
     picture: str | np.ndarray
     page: int = 0
     empty: str | None = None
+    image: str | None = None
 
 
 def from_files(paths: Sequence[str]) -> list[Source]:
@@ -61,7 +62,7 @@ def from_image(image: bpy.types.Image, empty: bpy.types.Object | None = None) ->
             path = image.filepath_from_user(image_user=empty.image_user)
         path = bpy.path.abspath(path, library=image.library)
         if Path(path).is_file() and Path(path).suffix.lower() in SUFFIXES:
-            return Source(name, path, empty=shown_by)
+            return Source(name, path, empty=shown_by, image=image.name)
     width, height = image.size
     if not (width and height and len(image.pixels)):
         raise InvoluteError(
@@ -69,7 +70,7 @@ def from_image(image: bpy.types.Image, empty: bpy.types.Object | None = None) ->
                 "The image {name!r} has no pixels; reload it or choose another.", name=image.name
             )
         )
-    return Source(name, _pixels(image), empty=shown_by)
+    return Source(name, _pixels(image), empty=shown_by, image=image.name)
 
 
 def _pixels(image: bpy.types.Image) -> np.ndarray:

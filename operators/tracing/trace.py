@@ -13,22 +13,36 @@ from ...engine import InvoluteError
 from ..grease_pencil import cels, state, writing
 from ..grease_pencil.core.pixel_map import PixelMap, front_view, on_empty
 from ..language import message
+from ..view.framing import look_straight_at
 from . import sources
 from .background import JobOperator
 from .file_choice import ChosenFiles
-from .placing import PlacingSettings, place_drawing
+from .placing import place_drawing
+from .scan_behind import put_behind
 from .settings_layout import draw_placing, draw_settings
 from .sources import Source
 from .trace_job import TracedSource, TraceJob
-from .trace_settings import TraceSettings, engine_settings
+from .trace_settings import PlacingOptions, TraceOptions, engine_settings
 
 if TYPE_CHECKING:
     from ...engine import Drawing
 
 
-class INVOLUTE_OT_trace(
-    JobOperator, ChosenFiles, PlacingSettings, TraceSettings, bpy.types.Operator
-):
+def target_property() -> object:
+    """Where the strokes go: the same choice in the file browser and for scripts."""
+    return EnumProperty(
+        name="Target",
+        description="Where the strokes go",
+        items=[
+            ("NEW", "New Object", "A Grease Pencil object per drawing"),
+            ("ACTIVE", "Active Object", "A keyframe of the active Grease Pencil object"),
+        ],
+        default="NEW",
+        options={"SKIP_SAVE"},
+    )
+
+
+class INVOLUTE_OT_trace(JobOperator, ChosenFiles, PlacingOptions, TraceOptions, bpy.types.Operator):
     """Turn a scanned drawing into Grease Pencil strokes that run straight through junctions"""
 
     bl_idname = "involute.trace"
@@ -45,19 +59,18 @@ class INVOLUTE_OT_trace(
         description="Name of the image data-block to trace",
         options={"SKIP_SAVE"},
     )
-    target: EnumProperty(
-        name="Target",
-        description="Where the strokes go",
-        items=[
-            ("NEW", "New Object", "A Grease Pencil object per drawing"),
-            ("ACTIVE", "Active Object", "A keyframe of the active Grease Pencil object"),
-        ],
-        default="NEW",
-        options={"SKIP_SAVE"},
-    )
+    target: target_property()
 
     def begin(self, context: bpy.types.Context) -> TraceJob:
-        """Read the sources and settings."""
+        """Read the sources and settings; what can't be met later is said now."""
+        self._target = ""
+        if self.target == "ACTIVE":
+            obj = context.active_object
+            if not cels.is_grease_pencil(obj) or not obj.data.is_editable:
+                raise InvoluteError("Make a Grease Pencil object of this file the active one.")
+            self._target = obj.name
+        else:
+            place_drawing(context, (1, 1), self.place, self.pixels_per_metre)
         return TraceJob(self._sources(context), engine_settings(self))
 
     def finish(self, context: bpy.types.Context, job: TraceJob) -> set[str]:
@@ -67,13 +80,9 @@ class INVOLUTE_OT_trace(
             return {"CANCELLED"}
         done = [result for result in job.results if result.drawing is not None]
         failed = [result for result in job.results if result.drawing is None]
-        try:
-            if done:
-                self._write(context, done)
-        except InvoluteError as problem:
-            self.report({"ERROR"}, message(problem))
-            return {"CANCELLED"}
-        if not done:
+        if done:
+            self._write(context, done)
+        else:
             problem = failed[0].problem if failed else job.problem
             self.report({"ERROR"}, message(problem or "There is nothing to trace."))
             return {"CANCELLED"}
@@ -130,31 +139,40 @@ class INVOLUTE_OT_trace(
         )
 
     def _write(self, context: bpy.types.Context, done: Sequence[TracedSource]) -> None:
+        """Whatever the artist did meanwhile, what was traced gets a place."""
         frame = context.scene.frame_current
-        if self.target == "ACTIVE":
-            obj = context.active_object
-            if not cels.is_grease_pencil(obj) or not obj.data.is_editable:
-                raise InvoluteError("Make a Grease Pencil object of this file the active one.")
+        target = bpy.data.objects.get(self._target) if self._target else None
+        if cels.is_grease_pencil(target) and target.data.is_editable:
             for result in done:
-                put(obj, result, frame, front_view(result.drawing.size))
+                put(target, result, frame, front_view(result.drawing.size))
             return
-        if context.mode != "OBJECT":
-            bpy.ops.object.mode_set(mode="OBJECT")
-        places = [
-            place_drawing(context, result.drawing.size, self.place, self.pixels_per_metre)
-            for result in done
-        ]
-        objects: list[bpy.types.Object] = []
-        for result, (pixel_map, matrix) in zip(done, places, strict=True):
-            objects.append(new_object(result.source.name))
-            objects[-1].matrix_world = matrix
-            context.collection.objects.link(objects[-1])
-            put(objects[-1], result, frame, pixel_map)
-        for other in context.selected_objects:
-            other.select_set(False)
-        for obj in objects:
-            obj.select_set(True)
-        context.view_layer.objects.active = objects[0]
+        objects = [self._new(context, result, frame) for result in done]
+        if context.mode == "OBJECT":
+            for other in context.selected_objects:
+                other.select_set(False)
+            context.view_layer.objects.active = objects[0]
+            if bpy.app.background or self.is_repeat():
+                objects[0].select_set(True)
+            else:
+                look_straight_at(context, objects)  # and not selected: no outline hides the strokes
+
+    def _new(
+        self, context: bpy.types.Context, result: TracedSource, frame: int
+    ) -> bpy.types.Object:
+        """An object of its own for a traced source, with the scan behind it."""
+        size = result.drawing.size
+        try:
+            pixel_map, matrix = place_drawing(context, size, self.place, self.pixels_per_metre)
+        except InvoluteError as problem:  # the camera is gone by now
+            self.report({"WARNING"}, message(problem))
+            pixel_map, matrix = place_drawing(context, size, "FRONT", self.pixels_per_metre)
+        obj = new_object(result.source.name)
+        obj.matrix_world = matrix
+        (context.collection or context.scene.collection).objects.link(obj)
+        put(obj, result, frame, pixel_map)
+        if self.show_scan:
+            put_behind(obj, result.source, size, pixel_map)
+        return obj
 
 
 def is_image_empty(obj: bpy.types.Object | None) -> bool:

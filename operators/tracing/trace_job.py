@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from ...engine import Cancelled, InvoluteError, Settings
 from ..job import Job, unexpected
+from .recent import recall, remember
 from .sources import Source
 
 if TYPE_CHECKING:
@@ -20,6 +21,7 @@ STAGES = {
     "graph": "Finding the junctions",
     "routing": "Routing the junctions",
     "strokes": "Drawing the strokes",
+    "check": "Comparing with the ink",
 }
 
 
@@ -52,7 +54,10 @@ class TraceJob(Job):
         from ...engine import vectorize
 
         try:
-            drawing = vectorize(source.picture, self.settings, self._tick, page=source.page)
+            drawing = recall(source, self.settings)
+            if drawing is None:
+                drawing = vectorize(source.picture, self.settings, self._tick, page=source.page)
+                remember(source, self.settings, drawing)
         except (InvoluteError, Cancelled) as problem:
             return TracedSource(source, None, str(problem))
         except MemoryError:

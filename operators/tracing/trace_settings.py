@@ -9,6 +9,7 @@ from bpy.types import PropertyGroup
 
 from ...engine import Settings
 from ...engine.settings import ABOUT, DEFAULTS, About
+from .placing import PlacingSettings
 
 if TYPE_CHECKING:
     import bpy
@@ -41,8 +42,47 @@ class TraceSettings:
 NAMES = tuple(ABOUT)
 
 
-class INVOLUTE_PG_trace_settings(TraceSettings, PropertyGroup):
+def for_operators(settings: type) -> type:
+    """The same properties for an operator, which forgets what the last call was given.
+
+    So what is set tells what this very call asked for; the rest is the sidebar's.
+    """
+    made = {}
+    for name, prop in settings.__annotations__.items():
+        options = {*prop.keywords.get("options", {"ANIMATABLE"}), "SKIP_SAVE"}
+        made[name] = prop.function(**(prop.keywords | {"options": options}))
+    return type(f"{settings.__name__}Options", (), {"__annotations__": made})
+
+
+class INVOLUTE_PG_trace_settings(TraceSettings, PlacingSettings, PropertyGroup):
     """The settings that the sidebar shows, kept in the scene."""
+
+    filled: BoolProperty(options={"HIDDEN"})
+
+
+TraceOptions = for_operators(TraceSettings)
+PlacingOptions = for_operators(PlacingSettings)
+
+
+def take_from_sidebar(operator: bpy.types.Operator, context: bpy.types.Context) -> None:
+    """Give an operator the sidebar's settings, but for those that it was called with."""
+    settings = scene_settings(context.scene)
+    for name in (*NAMES, *PlacingSettings.__annotations__):
+        if (
+            name in operator.properties.bl_rna.properties
+            and not operator.properties.is_property_set(name)
+        ):
+            setattr(operator, name, getattr(settings, name))
+
+
+def set_defaults(settings: INVOLUTE_PG_trace_settings, context: bpy.types.Context) -> None:
+    """Set settings to the defaults of the preferences."""
+    package = __package__.removesuffix(".operators.tracing")
+    addon = context.preferences.addons.get(package)
+    if addon is not None and addon.preferences is not None:
+        defaults = addon.preferences.defaults
+        for name in (*NAMES, *PlacingSettings.__annotations__):
+            setattr(settings, name, getattr(defaults, name))
 
 
 def as_values(source: TraceSettings) -> dict[str, Any]:

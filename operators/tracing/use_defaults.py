@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import bpy
 
-from .trace_settings import as_values, scene_settings
+from .trace_settings import NAMES, scene_settings, set_defaults
 
 
 class INVOLUTE_OT_use_defaults(bpy.types.Operator):
@@ -16,12 +16,35 @@ class INVOLUTE_OT_use_defaults(bpy.types.Operator):
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Copy the defaults of the preferences into the scene."""
-        package = __package__.removesuffix(".operators.tracing")
-        defaults = context.preferences.addons[package].preferences.defaults
-        settings = scene_settings(context.scene)
-        for name, value in as_values(defaults).items():
-            setattr(settings, name, value)
+        set_defaults(scene_settings(context.scene), context)
         return {"FINISHED"}
+
+
+@bpy.app.handlers.persistent
+def _fill(scene: bpy.types.Scene | None, *_: object) -> None:
+    """New scenes begin with the defaults of the preferences."""
+    if isinstance(scene, bpy.types.Scene) and not scene.involute.filled:
+        scene.involute.filled = True
+        if not any(scene.involute.is_property_set(name) for name in NAMES):
+            set_defaults(scene.involute, bpy.context)
+
+
+@bpy.app.handlers.persistent
+def _fill_all(*_: object) -> None:
+    for scene in bpy.data.scenes:
+        _fill(scene)
+
+
+def register() -> None:
+    """Fill new scenes as they come."""
+    bpy.app.handlers.load_post.append(_fill_all)
+    bpy.app.handlers.depsgraph_update_post.append(_fill)
+
+
+def unregister() -> None:
+    """No longer fill them."""
+    bpy.app.handlers.load_post.remove(_fill_all)
+    bpy.app.handlers.depsgraph_update_post.remove(_fill)
 
 
 CLASSES = (INVOLUTE_OT_use_defaults,)

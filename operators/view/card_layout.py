@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import NamedTuple
 
-_WIDTH, _HEIGHT, _GAP, _MARGIN, _AWAY = 92.0, 104.0, 8.0, 12.0, 46.0
+_WIDTH, _HEIGHT, _GAP, _MARGIN, _AWAY = 92.0, 104.0, 8.0, 12.0, 46.0  # px at scale 1
+_SMALLEST = 0.4  # of the interface's scale; smaller cards can't be read
 
 
 class Card(NamedTuple):
@@ -20,26 +22,77 @@ class Card(NamedTuple):
         return 0 <= x - self.x <= self.width and 0 <= y - self.y <= self.height
 
 
+def free_part(size: tuple[float, float], covers: Iterable[Card]) -> Card:
+    """What sidebar, toolbar and headers leave of a region that they lie over.
+
+    Args:
+        size: of the region.
+        covers: what lies over it, each along one of its borders.
+    """
+    left, bottom, right, top = 0.0, 0.0, float(size[0]), float(size[1])
+    for x, y, width, height in covers:
+        if width >= height:  # along the lower or the upper border
+            if y + height / 2 < size[1] / 2:
+                bottom = max(bottom, y + height)
+            else:
+                top = min(top, y)
+        elif x + width / 2 < size[0] / 2:
+            left = max(left, x + width)
+        else:
+            right = min(right, x)
+    if right - left < _WIDTH or top - bottom < _HEIGHT:  # nothing is left: better covered than gone
+        return Card(0.0, 0.0, float(size[0]), float(size[1]))
+    return Card(left, bottom, right - left, top - bottom)
+
+
 def layout(
-    count: int, anchor: tuple[float, float], size: tuple[float, float], scale: float = 1.0
-) -> list[Card]:
-    """A row of cards above a junction, or below it where there is no room; inside the region.
+    count: int, anchor: tuple[float, float], free: Card, scale: float = 1.0
+) -> tuple[list[Card], float]:
+    """Rows of cards above a junction, or below it where there is no room; inside the free part.
 
     Args:
         anchor: where the junction appears.
-        size: of the region.
+        free: the part of the region that nothing covers.
         scale: of the interface.
+
+    Returns:
+        The cards, and the scale that they have: smaller where they would not fit.
     """
+    smallest = _SMALLEST * scale
+    while scale > smallest and not _fits(count, free, scale):
+        scale *= 0.9
     width, height, gap, margin = (scale * v for v in (_WIDTH, _HEIGHT, _GAP, _MARGIN))
-    total = count * width + (count - 1) * gap
-    left = min(max(anchor[0] - total / 2, margin), max(size[0] - total - margin, margin))
+    columns = _columns(count, free, scale)
+    rows = -(-count // columns)
+    across, tall = columns * (width + gap) - gap, rows * (height + gap) - gap
+    left = _kept_in(anchor[0] - across / 2, free.x + margin, free.x + free.width - across - margin)
     bottom = anchor[1] + scale * _AWAY
-    if bottom + height + margin > size[1]:
-        bottom = anchor[1] - scale * _AWAY - height
-    bottom = min(max(bottom, margin), max(size[1] - height - margin, margin))
-    return [Card(left + k * (width + gap), bottom, width, height) for k in range(count)]
+    if bottom + tall + margin > free.y + free.height:
+        bottom = anchor[1] - scale * _AWAY - tall
+    bottom = _kept_in(bottom, free.y + margin, free.y + free.height - tall - margin)
+    cards = []
+    for k in range(count):
+        row, column = divmod(k, columns)
+        y = bottom + (rows - 1 - row) * (height + gap)
+        cards.append(Card(left + column * (width + gap), y, width, height))
+    return cards, scale
 
 
 def card_at(cards: list[Card], x: float, y: float) -> int:
     """The card under the mouse; -1 when there is none."""
     return next((k for k, card in enumerate(cards) if card.holds(x, y)), -1)
+
+
+def _columns(count: int, free: Card, scale: float) -> int:
+    room = free.width - 2 * scale * _MARGIN + scale * _GAP
+    return max(1, min(count, int(room // (scale * (_WIDTH + _GAP)))))
+
+
+def _fits(count: int, free: Card, scale: float) -> bool:
+    rows = -(-count // _columns(count, free, scale))
+    tall = scale * (rows * (_HEIGHT + _GAP) - _GAP + 2 * _MARGIN)
+    return tall <= free.height and scale * (_WIDTH + 2 * _MARGIN) <= free.width
+
+
+def _kept_in(value: float, low: float, high: float) -> float:
+    return min(max(value, low), max(high, low))

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .junction_cost import costs
+
 if TYPE_CHECKING:
     from ...engine import Drawing
     from ..grease_pencil.state import Trace
@@ -15,31 +17,47 @@ if TYPE_CHECKING:
 Array = np.ndarray
 
 _MAX_TABLES = 16
-_tables: OrderedDict[str, JunctionTable] = OrderedDict()
+_tables: OrderedDict[tuple[str, bytes], JunctionTable] = OrderedDict()
 
 
 @dataclass(frozen=True, eq=False)
 class JunctionTable:
-    """positions: (J, 2) px. degree: (J,) int. doubt: (J,) in [0, 1]. locked: (J,) bool."""
+    """positions: (J, 2) px, NaN where the artist left no stroke. degree: (J,) int.
+
+    doubt: (J,) in [0, 1]. locked: (J,) bool. cost: (J,) px, see `junction_cost`.
+    """
 
     positions: Array
     degree: Array
     doubt: Array
     locked: Array
+    cost: Array
 
     @staticmethod
-    def of(drawing: Drawing) -> JunctionTable:
-        """The table of a drawing."""
+    def of(drawing: Drawing, halves: Array | None = None) -> JunctionTable:
+        """The table of a drawing.
+
+        Args:
+            halves: first half-branches of the strokes that are there; None = all are.
+        """
         junctions = drawing.junctions
+        positions = np.array([j.position for j in junctions], np.float32).reshape(-1, 2)
+        if halves is not None:
+            positions[~_passed(drawing, halves)] = np.nan
         return JunctionTable(
-            np.array([j.position for j in junctions], np.float32).reshape(-1, 2),
+            positions,
             np.array([j.degree for j in junctions], np.int32),
             np.array([j.doubt for j in junctions], np.float32),
             np.array([j.locked for j in junctions], bool),
+            costs(drawing),
         )
 
     def __len__(self) -> int:
         return len(self.doubt)
+
+    def at_least(self, certainty: float) -> Array:
+        """(J,) bool: not locked, and the routing in force is that probable."""
+        return ~self.locked & (1.0 - self.doubt >= certainty)
 
     def listed(
         self, order: str = "DOUBT", at_least: float = 0.0, degree: int = 0, unlocked: bool = False
@@ -47,29 +65,43 @@ class JunctionTable:
         """Which junctions a list shows, in its order.
 
         Args:
-            order: "DOUBT" = the most doubtful first; "PLACE" = in reading order.
+            order: "COST" = where a wrong answer changes most first; "DOUBT" = the most doubtful
+                first; "PLACE" = in reading order.
             at_least: least doubt.
             degree: 3, 4, or 5 for five and more; 0 = any.
             unlocked: leave out what the user has fixed.
         """
-        keep = self.doubt >= at_least
+        keep = (self.doubt >= at_least) & np.isfinite(self.positions[:, 0])
         if degree:
             keep &= (self.degree == degree) if degree < 5 else (self.degree >= 5)
         if unlocked:
             keep &= ~self.locked
         chosen = np.flatnonzero(keep)
-        if order == "DOUBT":
-            return chosen[np.argsort(-self.doubt[chosen], kind="stable")]
+        if order != "PLACE":
+            worst = self.cost if order == "COST" else self.doubt
+            return chosen[np.argsort(-worst[chosen], kind="stable")]
         x, y = self.positions[chosen].T
-        line = np.ptp(self.positions[:, 1]) / 20 if len(self) else 1.0
+        line = np.ptp(y) / 20 if len(y) else 1.0
         return chosen[np.lexsort((x, np.floor(y / max(line, 1e-6))))]
 
 
-def table_of(trace: Trace) -> JunctionTable:
-    """The table of a trace, made once for each state of it."""
-    table = _tables.get(trace.stamp)
+def table_of(trace: Trace, halves: Array) -> JunctionTable:
+    """The table of a trace, made once for each state of it and of its strokes."""
+    key = trace.stamp, halves.tobytes()
+    table = _tables.get(key)
     if table is None:
-        table = _tables[trace.stamp] = JunctionTable.of(trace.drawing)
+        table = _tables[key] = JunctionTable.of(trace.drawing, halves)
         while len(_tables) > _MAX_TABLES:
             _tables.popitem(last=False)
     return table
+
+
+def _passed(drawing: Drawing, halves: Array) -> Array:
+    """(J,) bool: the junctions that the strokes with these first half-branches pass."""
+    strokes = [s.branches for s in drawing.strokes if len(s.branches)]
+    there = np.isin([branches[0] for branches in strokes], halves)
+    kept = [branches for branches, is_there in zip(strokes, there, strict=True) if is_there]
+    passed = np.zeros(len(drawing.graph.vertices), bool)
+    if kept:
+        passed[drawing.graph.ends[np.concatenate(kept) >> 1].reshape(-1)] = True
+    return passed[drawing.graph.junctions]

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .card_layout import Card, layout
+from .card_layout import Card, free_part, layout
 from .picking import distance_to_line, near_part, nearest, project
-from .view_state import Shown, shown_in
+from .view_state import Shown, traced_in
 
 if TYPE_CHECKING:
     import bpy
@@ -24,14 +23,14 @@ def places_on_screen(context: bpy.types.Context, shown: Shown, points: np.ndarra
     """Pixels of a drawing -> pixels of the region; NaN behind the eye."""
     region = context.region
     matrix = np.array(context.region_data.perspective_matrix) @ np.array(shown.object.matrix_world)
-    places = shown.trace.pixel_map.to_object(points)
+    places = shown.pixel_map.to_object(points)
     return project(places, matrix, region.width, region.height)
 
 
 def junction_under(context: bpy.types.Context, mouse: Mouse) -> tuple[Shown, int] | None:
     """The nearest junction; the active object's count first."""
     radius = _JUNCTION_RADIUS * context.preferences.system.ui_scale
-    for shown in _drawings(context):
+    for shown in traced_in(context):
         found = nearest(places_on_screen(context, shown, shown.table.positions), mouse, radius)
         if found >= 0:
             return shown, found
@@ -41,7 +40,7 @@ def junction_under(context: bpy.types.Context, mouse: Mouse) -> tuple[Shown, int
 def halves_under(context: bpy.types.Context, mouse: Mouse) -> tuple[Shown, dict[int, float]] | None:
     """The half-branches near the mouse with their distances, of the junctions around it."""
     radius = _LINE_RADIUS * context.preferences.system.ui_scale
-    for shown in _drawings(context):
+    for shown in traced_in(context):
         places = places_on_screen(context, shown, shown.table.positions)
         distance = np.nan_to_num(np.linalg.norm(places - mouse, axis=1), nan=np.inf)
         around = np.argsort(distance)[:_NEIGHBORS]
@@ -56,23 +55,30 @@ def halves_under(context: bpy.types.Context, mouse: Mouse) -> tuple[Shown, dict[
     return None
 
 
-def cards_of(context: bpy.types.Context, shown: Shown) -> list[Card]:
-    """The cards of the current junction's alternatives in the region of the context."""
+def cards_of(context: bpy.types.Context, shown: Shown) -> tuple[list[Card], float]:
+    """The cards of the current junction's alternatives in the region, and their scale."""
     junction = shown.junction
     (anchor,) = places_on_screen(context, shown, np.array([junction.position]))
     region = context.region
     if not np.isfinite(anchor).all():
         anchor = (region.width / 2, region.height / 2)
     scale = context.preferences.system.ui_scale
-    size = region.width, region.height
-    return layout(len(junction.alternatives), tuple(anchor), size, scale)
+    return layout(len(junction.alternatives), tuple(anchor), free_part_of(context), scale)
 
 
-def _drawings(context: bpy.types.Context) -> Iterator[Shown]:
-    """The traced drawings that can be seen, the active one first."""
-    active = context.active_object
-    others = (obj for obj in context.visible_objects if obj != active)
-    for obj in (active, *others):
-        shown = shown_in(context, obj) if obj is not None else None
-        if shown is not None and len(shown.table):
-            yield shown
+def free_part_of(context: bpy.types.Context) -> Card:
+    """What sidebar, toolbar and headers leave of the region of the context."""
+    region = context.region
+    covers = [
+        Card(other.x - region.x, other.y - region.y, other.width, other.height)
+        for other in (context.area.regions if context.area else ())
+        if other.type not in {"WINDOW", "HUD"} and min(other.width, other.height) > 1
+    ]
+    inside = [c for c in covers if _overlaps(c, region.width, region.height)]
+    return free_part((region.width, region.height), inside)
+
+
+def _overlaps(card: Card, width: float, height: float) -> bool:
+    return (
+        card.x < width and card.y < height and card.x + card.width > 0 and card.y + card.height > 0
+    )

@@ -2,15 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
-from bpy.props import BoolProperty, EnumProperty, FloatVectorProperty, IntProperty
+from bpy.props import (
+    BoolProperty,
+    EnumProperty,
+    FloatProperty,
+    FloatVectorProperty,
+    IntProperty,
+)
 
+from ...engine import InvoluteError
 from ..grease_pencil import cels, state
+from ..grease_pencil.core.pixel_map import PixelMap
 from .junction_table import JunctionTable, table_of
 
 if TYPE_CHECKING:
@@ -34,10 +43,25 @@ class INVOLUTE_PG_view(bpy.types.PropertyGroup):
         description="Show junctions in the viewport, colored by doubt",
         default=True,
     )
+    stroke_colors: BoolProperty(
+        name="Stroke Colors",
+        description="Show every stroke in a color of its own, with its ends marked",
+        default=False,
+    )
+    certainty: FloatProperty(
+        name="Certainty",
+        description="Least probability of the routing in force",
+        default=95.0,
+        min=50.0,
+        max=100.0,
+        precision=0,
+        subtype="PERCENTAGE",
+    )
     order: EnumProperty(
         name="Sort",
         description="Order of the list",
         items=[
+            ("COST", "Cost", "Doubt times the length of stroke that another answer changes"),
             ("DOUBT", "Doubt", "The most doubtful first"),
             ("PLACE", "Place", "From the top of the page to the bottom"),
         ],
@@ -73,7 +97,17 @@ class Shown:
     @cached_property
     def table(self) -> JunctionTable:
         """All its junctions as arrays."""
-        return table_of(self.trace)
+        return table_of(self.trace, self.halves)
+
+    @cached_property
+    def halves(self) -> np.ndarray:
+        """The first half-branches of its strokes that are there."""
+        return state.halves_at(self.object.data, self.frame, self.trace.key)
+
+    @cached_property
+    def pixel_map(self) -> PixelMap:
+        """Where its pixels lie in the object, as its strokes say now."""
+        return state.pixel_map_at(self.object.data, self.frame, self.trace)
 
     @property
     def junction(self) -> Junction | None:
@@ -98,9 +132,21 @@ class Shown:
     @property
     def world_positions(self) -> np.ndarray:
         """(J, 3) where the junctions are in the scene."""
-        places = self.trace.pixel_map.to_object(self.table.positions)
+        places = self.pixel_map.to_object(self.table.positions)
         matrix = np.array(self.object.matrix_world)
         return places @ matrix[:3, :3].T + matrix[:3, 3]
+
+
+def traced_in(context: bpy.types.Context) -> Iterator[Shown]:
+    """What can be seen of traced drawings, the active object's first; what is damaged has none."""
+    visible = sorted(context.visible_objects, key=lambda obj: obj != context.active_object)
+    for obj in visible:
+        try:
+            shown = shown_in(context, obj)
+        except InvoluteError:
+            continue
+        if shown is not None and len(shown.table):
+            yield shown
 
 
 def view_of(context: bpy.types.Context) -> INVOLUTE_PG_view:
@@ -119,7 +165,7 @@ def shown_in(context: bpy.types.Context, obj: bpy.types.Object | None = None) ->
         return None
     view = view_of(context)
     key = view.key if view.key in keys else keys[0]
-    return Shown(obj, frame, state.load(obj.data, key), view)
+    return Shown(obj, frame, state.load(obj.data, key, frame), view)
 
 
 def select(shown: Shown, junction: int) -> None:
@@ -133,6 +179,16 @@ def make_current(context: bpy.types.Context, shown: Shown, junction: int) -> Non
         context.view_layer.objects.active = shown.object
     select(shown, junction)
     redraw(context)
+
+
+def redraw_sidebars(context: bpy.types.Context) -> None:
+    """Let the sidebars of all 3D viewports draw anew, and nothing else."""
+    for window in context.window_manager.windows:
+        for area in window.screen.areas:
+            if area.type == "VIEW_3D":
+                for region in area.regions:
+                    if region.type == "UI":
+                        region.tag_redraw()
 
 
 def redraw(context: bpy.types.Context) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from benchmarks.metrics import Strokes, crossings, evaluate, read_svg, scaled, summarize
@@ -143,6 +143,7 @@ line = st.lists(point, min_size=2, max_size=5, unique=True)
 drawing = st.lists(line, min_size=1, max_size=6)
 
 
+@settings(deadline=None)  # the machine's speed is no property of the code
 @given(drawing)
 def test_every_drawing_is_its_own_truth(strokes):
     lines = scaled([np.array(s, float) for s in strokes], (1024, 1024))

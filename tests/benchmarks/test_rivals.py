@@ -76,10 +76,12 @@ def test_autotrace_finds_the_lines_where_they_are(cross):
 
 
 def test_the_table_and_its_file(tmp_path, capsys):
-    assert quality.main(
+    figures = quality.main(
         ["--every", "40", "--jobs", "1", "--methods", "skeleton + greedy",
          "--json", str(tmp_path / "q.json"), "--svg", str(tmp_path / "svg")]
-    ) == 0  # fmt: skip
+    )  # fmt: skip
+    assert figures["skeleton + greedy"]["drawings"] == 2
+    assert figures["skeleton + greedy"]["cpu_s"] > 0
     assert "| skeleton + greedy |" in capsys.readouterr().out
     told = json.loads((tmp_path / "q.json").read_text())["skeleton + greedy"]
     assert told["summary"]["drawings"] == len(told["drawings"]) == 2

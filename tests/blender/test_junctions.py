@@ -102,7 +102,9 @@ def test_list_filters_and_order(part):
         degree=np.array([3, 4, 3, 7]),
         doubt=np.array([0.05, 0.4, 0.2, 0.0], np.float32),
         locked=np.array([False, False, False, True]),
+        cost=np.array([9.0, 2.0, 30.0, 0.0]),
     )
+    assert table.listed("COST").tolist() == [2, 0, 1, 3]
     assert table.listed().tolist() == [1, 2, 0, 3]
     assert table.listed("PLACE").tolist() == [2, 1, 3, 0]
     assert table.listed(at_least=0.1).tolist() == [1, 2]
@@ -195,12 +197,20 @@ def test_a_drag_joins_the_nearest_lines_that_meet(part):
 
 
 @pytest.mark.parametrize("anchor", [(400, 300), (5, 5), (795, 595), (-500, 2000)])
-def test_cards_stay_inside_the_region(part, anchor):
+@pytest.mark.parametrize("scale", [1.0, 2.0])
+@pytest.mark.parametrize("count", [2, 6, 10])
+def test_cards_stay_inside_what_nothing_covers(part, anchor, scale, count):
+    """Sidebar on the right, toolbar on the left, two headers above, asset shelf below."""
     cards = part("operators.view.card_layout")
-    row = cards.layout(5, anchor, (800, 600))
-    assert all(c.x >= 0 and c.y >= 0 for c in row)
-    assert all(c.x + c.width <= 800 and c.y + c.height <= 600 for c in row)
-    assert [cards.card_at(row, c.x + 3, c.y + 3) for c in row] == list(range(5))
+    made = (600, 0, 200, 600), (0, 0, 50, 600), (0, 560, 800, 40), (0, 520, 800, 40), (0, 0, 800, 9)
+    free = cards.free_part((800, 600), [cards.Card(*cover) for cover in made])
+    assert free == (50, 9, 550, 511)
+    row, smaller = cards.layout(count, anchor, free, scale)
+    assert len(set(row)) == count
+    assert 0.4 * scale <= smaller <= scale
+    assert all(c.x >= 50 and c.y >= 9 for c in row)
+    assert all(c.x + c.width <= 600 and c.y + c.height <= 520 for c in row)
+    assert [cards.card_at(row, c.x + 3, c.y + 3) for c in row] == list(range(count))
     assert cards.card_at(row, row[0].x - 2, row[0].y) == -1
 
 
@@ -211,6 +221,7 @@ def test_overlay_geometry(part):
         np.array([3, 4]),
         np.array([0.0, 0.5], np.float32),
         np.array([False, False]),
+        np.array([0.0, 1.0]),
     )
     rings = geometry.rings(table, 4.0, (colors.SURE, colors.DOUBTFUL, colors.LOCKED))
     sides = len(rings.points) // 2
@@ -252,4 +263,4 @@ def test_overlay_and_panels_are_there(bpy, part, traced):
     assert bpy.types.INVOLUTE_PT_junction.poll(bpy.context)
     assert len(part("ui.overlay.overlay")._handles) == 2
     keys = list(part("ui.keymap").items(bpy.context.window_manager.keyconfigs.addon))
-    assert len(keys) == 3
+    assert len(keys) == 4

@@ -65,7 +65,7 @@ def check_rerouted(part, obj, pixel_map, wanted):
 
 def drawing_of(part, obj, frame=1):
     state = part("operators.grease_pencil.state")
-    return state.load(obj.data, state.keys_at(obj.data, frame)[0]).drawing
+    return state.load(obj.data, state.keys_at(obj.data, frame)[0], frame).drawing
 
 
 def cel_of(obj, layer="Black", frame=1):
@@ -86,7 +86,7 @@ def test_state_travels_with_the_data(bpy, part):
     obj, _ = make(bpy, part, drawing)
     again = drawing_of(part, obj)
     assert_same([(s.points, s.closed) for s in again.strokes], drawing.strokes)
-    part("operators.grease_pencil.state")._decoded.clear()
+    part("operators.grease_pencil.stored_trace")._decoded.clear()
     again = drawing_of(part, obj)
     assert_same([(s.points, s.closed) for s in again.strokes], drawing.strokes)
     assert again.junctions[0].alternatives == drawing.junctions[0].alternatives
@@ -136,7 +136,7 @@ def test_strokes_that_run_the_other_way_are_found_again(bpy, part, touched):
         move(cel_of(obj), slice(None), (1e-3, 0, 0))
     whole = {j.index: j.pairs for j in drawing.junctions}
     for pairs in ({0: (), 2: ()}, whole, {1: (), 4: ()}, whole, {3: (), 0: ()}):
-        part("operators.grease_pencil.state")._decoded.clear()
+        part("operators.grease_pencil.stored_trace")._decoded.clear()
         check_rerouted(part, obj, pixel_map, pairs)
 
 
@@ -156,7 +156,7 @@ def test_closed_strokes_that_start_elsewhere_are_found_again(bpy, part, seed, to
     whole = {j.index: j.pairs for j in drawing.junctions}
     for number in range(10):
         if forget:  # as after saving and opening again
-            part("operators.grease_pencil.state")._decoded.clear()
+            part("operators.grease_pencil.stored_trace")._decoded.clear()
         junction = drawing.junctions[random.integers(len(drawing.junctions))]
         pairs = junction.alternatives[random.integers(len(junction.alternatives))].pairs
         wanted = whole if number % 3 == 2 else {junction.index: pairs}
@@ -442,7 +442,7 @@ def test_save_reopen_append_duplicate(bpy, part, tmp_path):
     def check():
         for name in names:
             found = bpy.data.objects[name]
-            part("operators.grease_pencil.state")._decoded.clear()
+            part("operators.grease_pencil.stored_trace")._decoded.clear()
             change(part, found, lambda d: d.reroute(4, ()))
             assert_same(strokes_in(part, found, pixel_map), drawing_of(part, found).strokes)
 

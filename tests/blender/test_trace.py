@@ -41,6 +41,11 @@ def everything(bpy) -> tuple[int, ...]:
     return tuple(map(len, (data.objects, data.materials, data.images, data.meshes, gp)))
 
 
+def drawings(bpy):
+    """All objects but the scans behind."""
+    return [obj for obj in bpy.data.objects if obj.type != "EMPTY"]
+
+
 def test_a_file_becomes_an_object(bpy, part, scan):
     assert bpy.ops.involute.trace(filepath=str(scan)) == {"FINISHED"}
     obj = bpy.context.active_object
@@ -124,7 +129,7 @@ def test_files_become_an_object_each(bpy, part, tmp_path):
     for name in ("a", "b"):
         page(part, tmp_path / f"{name}.png")
     bpy.ops.involute.trace(directory=str(tmp_path), files=[{"name": "a.png"}, {"name": "b.png"}])
-    assert sorted(o.name for o in bpy.data.objects) == ["a", "b"]
+    assert sorted(o.name for o in drawings(bpy)) == ["a", "b"]
 
 
 def test_active_object_takes_a_keyframe(bpy, part, scan):
@@ -132,7 +137,7 @@ def test_active_object_takes_a_keyframe(bpy, part, scan):
     obj = bpy.context.active_object
     bpy.context.scene.frame_set(5)
     bpy.ops.involute.trace(filepath=str(scan), target="ACTIVE")
-    assert len(bpy.data.objects) == 1
+    assert len(drawings(bpy)) == 1
     assert [key.frame_number for key in obj.data.layers["Black"].frames] == [1, 5]
 
 
@@ -177,17 +182,17 @@ def test_one_failed_file_of_many_is_skipped(bpy, part, scan):
     (scan.parent / "bad.png").write_text("not a picture")
     files = [{"name": "bad.png"}, {"name": scan.name}]
     assert bpy.ops.involute.trace(directory=str(scan.parent), files=files) == {"FINISHED"}
-    assert [o.name for o in bpy.data.objects] == ["page"]
+    assert [o.name for o in drawings(bpy)] == ["page"]
 
 
 def test_tracing_is_one_undo_step(bpy, scan):
     bpy.ops.ed.undo_push(message="before")
     bpy.ops.involute.trace("EXEC_DEFAULT", True, filepath=str(scan))
-    assert len(bpy.data.objects) == 1
+    assert len(drawings(bpy)) == 1
     bpy.ops.ed.undo()
     assert len(bpy.data.objects) == 0
     bpy.ops.ed.redo()
-    assert len(bpy.data.objects) == 1
+    assert len(drawings(bpy)) == 1
 
 
 def test_settings_of_the_engine_all_have_a_property(bpy, part):
@@ -205,7 +210,7 @@ def test_settings_of_the_engine_all_have_a_property(bpy, part):
 
 def test_import_operator_and_menus(bpy, part, scan):
     assert bpy.ops.involute.import_scan(filepath=str(scan)) == {"FINISHED"}
-    assert len(bpy.data.objects) == 1
+    assert len(drawings(bpy)) == 1
     with pytest.raises(RuntimeError, match="none"):
         bpy.ops.involute.import_scan(filepath=str(scan.parent / "none.png"))
 

@@ -15,8 +15,10 @@ import cv2
 import numpy as np
 import pytest
 from involute.command import trace_sequence
-from involute.command.batch import RECEIPTS, Task, run
+from involute.command.batch import Task, run
+from involute.command.receipts import FOLDER as RECEIPTS
 from involute.engine import Drawing, InvoluteError, Settings, vectorize
+from involute.engine.formats import whole_file
 from involute.engine.sequence import number_frames
 
 SETTINGS = Settings(provider="classical", router="geometric")
@@ -130,11 +132,12 @@ def test_a_killed_run_leaves_nothing_half_and_is_taken_up(tmp_path, jobs):
     for path in done:
         assert Drawing.load(path).strokes
 
-    (tmp_path / f".frame_009.{process.pid}.part.svg").write_text("half")
+    left = whole_file._new_part(tmp_path / "frame_009.svg")
+    left.rename(left.with_name(left.name.replace(f"-{os.getpid()}-", f"-{process.pid}-")))
     again = subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines()
     resumed = {line.split()[0] for line in again if " True " in line}
     assert len(again) == len(paths)
-    assert {f"{Path(p).stem}.svg.json" for p in resumed} == set(receipts)
+    assert {f"{Path(p).stem}.json" for p in resumed} == set(receipts)
     assert len(resumed) >= 3
     for path in resumed:
         svg = Path(path).with_suffix(".svg")

@@ -12,6 +12,8 @@ import cv2
 import numpy as np
 import pytest
 from involute.command import cli, planning
+from involute.command.arguments import parser
+from involute.command.inputs import natural
 from involute.engine import Drawing, Settings
 from involute.engine.formats import FORMATS, Format, load
 
@@ -127,8 +129,9 @@ def test_what_fails_stops_nothing_else(scans, tmp_path, capsys):
     assert trace(scans, tmp_path / "gone.png", "-o", out, "--report", report) == 1
     assert names(out) == ["page1.svg", "page10.svg", "page2.svg"]
     lines = [line for line in capsys.readouterr().err.splitlines() if "libpng" not in line]
-    assert len(lines) == 3
-    assert all(line.startswith("involute: ") and line.endswith(".") for line in lines)
+    assert sum("left out: notes.txt (not a picture)" in line for line in lines) == 1
+    assert len(lines) == 4
+    assert all(line.startswith("involute: ") and line[-1] in ".)" for line in lines)
     errors = [image.get("error") for image in json.loads(report.read_text())["images"]]
     assert sum(error is not None for error in errors) == 3
 
@@ -158,7 +161,7 @@ def test_settings_reach_the_drawing(tmp_path):
 
 
 def test_every_setting_has_an_option():
-    options = vars(cli._parser().parse_args(["trace", "x", "-o", "y"]))
+    options = vars(parser().parse_args(["trace", "x", "-o", "y"]))
     hidden = {f.name for f in fields(Settings)} - options.keys()
     assert hidden <= {"align"}  # points, which `--align` measures
 
@@ -171,7 +174,7 @@ def test_drawings_are_handed_to_extra_writers(scans, tmp_path):
         path.write_text("blend")
 
     out = tmp_path / "all.blend"
-    blend = Format(suffix=".blend", about="many drawings", write_many=write)
+    blend = Format(suffix=".blend", about="many drawings", endings=(b"blend",), write_many=write)
     assert trace(scans, "-o", out, formats=[blend]) == 0
     assert written == {".blend": [("page1", True), ("page2", True), ("page10", True)]}
     assert out.read_text() == "blend"
@@ -184,7 +187,7 @@ def test_a_failing_writer_leaves_nothing(tmp_path, capsys):
         raise OSError(28, "No space left on device")
 
     source, out = page(tmp_path / "in.png"), tmp_path / "out.blend"
-    blend = Format(suffix=".blend", about="many drawings", write_many=write)
+    blend = Format(suffix=".blend", about="many drawings", endings=(b"blend",), write_many=write)
     assert trace(source, "-o", out, formats=[blend]) == 1
     assert "disk is full" in capsys.readouterr().err
     assert names(tmp_path) == ["in.png"]
@@ -295,7 +298,7 @@ def test_evaluate_finds_a_drawing_equal_to_itself(tmp_path, capsys):
 
 def test_natural_order():
     paths = [Path(n) for n in ("b.png", "a10.png", "a2.png", "A1.png", "1.png")]
-    ordered = [p.name for p in sorted(paths, key=planning.natural)]
+    ordered = [p.name for p in sorted(paths, key=natural)]
     assert ordered == ["1.png", "A1.png", "a2.png", "a10.png", "b.png"]
 
 

@@ -14,6 +14,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from involute.command import cli
+from involute.command.arguments import parser
 from involute.command.cli import main
 from involute.command.farm import frame_ranges, write_job
 from involute.command.setting_options import settings_options
@@ -141,10 +142,46 @@ def test_every_setting_can_be_handed_on():
         curve="bezier",
     )
     words = settings_options(settings)
-    options = cli._parser().parse_args(["trace", "a.png", "-o", "b.svg", *words])
-    assert cli._settings(options) == settings
+    options = parser().parse_args(["trace", "a.png", "-o", "b.svg", *words])
+    assert cli.settings_of(options) == settings
 
 
 def test_bad_call_is_one_sentence():
     with pytest.raises(InvoluteError, match="workers call Involute"):
         write_job(Path("x"), Path("."), Path("o.blend"), [1], command="")
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["{{Param.Images}}", "{{", "}}", "a\nb", "a\x01b", "{{ Param.Nothing }}", "{{Session.X}}"],
+)
+def test_names_that_a_farm_would_read_otherwise_are_refused(name, tmp_path, capsys):
+    make_frames(tmp_path / "in", [1, 2])
+    for words in (["-o", f"out/{name}.blend"], ["-o", "out/x.blend", "--call", f"x '{name}'"]):
+        assert main(["farm-job", str(tmp_path / "job"), str(tmp_path / "in"), *words]) == 1
+        assert not (tmp_path / "job").exists()
+        assert "choose another name" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    "name", ["a'b", 'a"b', "$(touch x)", "é漢", "-x", "--overwrite", "x" * 200]
+)
+def test_odd_names_reach_the_command_as_they_are(name, tmp_path):
+    make_frames(tmp_path / "in", [1, 2])
+    job = tmp_path / "job"
+    words = ["-o", str(tmp_path / f"{name}.blend"), "--call", CALL]
+    assert main(["farm-job", str(job), str(tmp_path / "in"), *words]) == 0
+    joining = template_of(job)["steps"][1]["script"]["actions"]["onRun"]["args"]
+    assert joining[joining.index("-o") + 1] == f"{{{{Param.OutputDir}}}}/{name}.blend"
+
+
+def test_a_job_replaces_only_a_job(tmp_path, capsys):
+    make_frames(tmp_path / "in", [1, 2])
+    words = ["farm-job", str(tmp_path), str(tmp_path / "in"), "-o", "x.blend"]
+    (tmp_path / "template.json").write_text('{"mine": 1}')
+    assert main(words) == 1
+    assert (tmp_path / "template.json").read_text() == '{"mine": 1}'
+    (tmp_path / "template.json").unlink()
+    assert main(words) == main(words) == 0
+    assert main([*words, "--call", "'"]) == 1
+    assert "Can't read the command" in capsys.readouterr().err

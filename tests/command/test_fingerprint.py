@@ -13,13 +13,14 @@ import cv2
 import numpy as np
 import pytest
 from involute.engine import weights
-from involute.training import digests
+from involute.training import digests, lineage
 
 RENEW = "run `python -m training.digests` and commit engine/weights/digests.json"
 FINGERPRINT = """
 import sys
-from program.command.batch import Task, fingerprint
-print(fingerprint(Task(sys.argv[1], ("a.svg",))))
+from program.command.receipts import fingerprint
+from program.engine import Settings
+print(fingerprint(sys.argv[1], 0, Settings()))
 """
 TRACE = """
 import sys
@@ -84,7 +85,7 @@ def other_calibration(engine: Path) -> None:
 
 def test_every_weight_has_the_digest_of_its_content() -> None:
     noted = json.loads((weights.FOLDER / weights.DIGESTS).read_text("utf-8"))
-    found = {name: digests.of(weights.FOLDER / name) for name in weights.names()}
+    found = {name: lineage.sha256(weights.FOLDER / name) for name in weights.names()}
     assert noted == found, RENEW
     assert {"centerline.onnx", "routing.onnx", "routing.json", "undrawn.npz"} <= set(found)
 
@@ -143,4 +144,4 @@ def test_who_writes_shipped_weights_renews_the_digests(engine: Path) -> None:
     change(folder / "undrawn.npz")
     digests.note(folder / "undrawn.npz")
     noted = json.loads((folder / weights.DIGESTS).read_text("utf-8"))
-    assert noted["undrawn.npz"] == digests.of(folder / "undrawn.npz")
+    assert noted["undrawn.npz"] == lineage.sha256(folder / "undrawn.npz")

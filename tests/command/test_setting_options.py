@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 from involute.command import cli
+from involute.command.arguments import parser
 from involute.command.setting_options import settings_options
 from involute.engine import InvoluteError, Settings
 from involute.engine.settings import ABOUT, GROUPS
@@ -34,8 +35,8 @@ def test_what_is_not_the_default_comes_back_from_its_option(name):
     settings = Settings(**{name: other})
     words = settings_options(settings)
     assert len(words) == (1 if about.kind is bool else 2)
-    options = cli._parser().parse_args(["trace", "in.png", "-o", "out.svg", *words])
-    assert cli._settings(options) == settings
+    options = parser().parse_args(["trace", "in.png", "-o", "out.svg", *words])
+    assert cli.settings_of(options) == settings
 
 
 def test_values_that_can_not_be_are_refused():

@@ -6,8 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 from involute.engine import Settings
-from involute.engine.graph import sweep
-from involute.engine.values import PlanarGraph
+from involute.engine.graph import Evidence
+from involute.engine.graph.removal.dust import remove_dust
+from involute.engine.values import LineMaps, PlanarGraph
 from involute.synthesis.true_graph import graph_from_strokes
 
 LINE = np.array([[10.0, 150], [190, 150]])
@@ -23,7 +24,8 @@ def _swept(
         widths=np.repeat(widths, size).astype(np.float32),
         strength=np.repeat(strength, size).astype(np.float32),
     )
-    return sweep(graph, settings)
+    page = Evidence(LineMaps(np.zeros((1, 1), np.float32)), 4.0)
+    return remove_dust(graph, page, settings)
 
 
 def test_dust_goes_and_dots_stay() -> None:

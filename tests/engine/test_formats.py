@@ -68,7 +68,8 @@ def curved(closed: bool) -> Drawing:
         points, np.ones(3, np.float32), np.ones(3, np.float32), closed, (0, 0, 0),
         np.array([0], np.int32), handles,
     )  # fmt: skip
-    return Drawing(drawing.graph, drawing.routing, (stroke,), (), drawing.size, drawing.settings)
+    graph = svg._unconnected((stroke,))
+    return Drawing(*graph, (stroke,), (), drawing.size, drawing.settings)
 
 
 def assert_same_strokes(a: Drawing, b: Drawing, tolerance: float) -> None:
@@ -159,7 +160,7 @@ def test_a_blank_drawing_survives(suffix, tmp_path):
     points=st.lists(
         st.tuples(*[st.floats(-50, 20_000, width=32)] * 2), min_size=2, max_size=30, unique=True
     ),
-    width=st.floats(0, 500, width=32),
+    width=st.floats(0.0009765625, 500, width=32),
     closed=st.booleans(),
 )
 def test_any_stroke_survives_svg(points, width, closed):

@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 import pytest
 from involute.engine import Settings
-from involute.engine.graph import build_graph, ridge
+from involute.engine.graph import Evidence, build_graph, ridge
 from involute.engine.graph.ridge import Ridge
 from involute.engine.values import LineMaps, PlanarGraph
 
@@ -25,7 +25,7 @@ def drawn(*lines: np.ndarray, size: int = SIZE) -> np.ndarray:
 
 
 def graph_of(*lines: np.ndarray, size: int = SIZE, **settings: float) -> PlanarGraph:
-    return build_graph(LineMaps(drawn(*lines, size=size)), 2.0, Settings(**settings))
+    return build_graph(Evidence(LineMaps(drawn(*lines, size=size)), 2.0), Settings(**settings))
 
 
 def ray(degrees: float, start: float, stop: float, center: np.ndarray = MIDDLE) -> np.ndarray:
@@ -56,7 +56,7 @@ def distance_to(line: np.ndarray, points: np.ndarray) -> np.ndarray:
 
 
 def test_blank_page() -> None:
-    graph = build_graph(LineMaps(np.zeros((40, 50), np.float32)), 2.0, Settings())
+    graph = build_graph(Evidence(LineMaps(np.zeros((40, 50), np.float32)), 2.0), Settings())
     assert graph.branch_count == 0
     assert graph.vertices.shape == (0, 2)
 
@@ -182,7 +182,7 @@ def test_dots_are_not_lost(length: float) -> None:
 @pytest.mark.parametrize("gap", [2.6, 3.2, 3.9])
 def test_a_small_gap_in_a_line_is_bridged(angle: float, gap: float) -> None:
     ridge = cv2.GaussianBlur(drawn(ray(angle, -40, -gap / 2), ray(angle, gap / 2, 40)), (0, 0), 0.5)
-    graph = build_graph(LineMaps(np.minimum(1.5 * ridge, 1)), 2.0, Settings())
+    graph = build_graph(Evidence(LineMaps(np.minimum(1.5 * ridge, 1)), 2.0), Settings())
     assert graph.branch_count == 1
     assert distance_to(ray(angle, -40, 40), graph.points).max() < 0.3
 
@@ -226,7 +226,7 @@ def test_a_short_stem_stays_only_where_a_junction_is_seen(seen: bool) -> None:
     line = np.array([[20.0, 60.3], [100.0, 60.3]])
     ridge = drawn(line, np.array([[60.3, 60.3], [60.3, 68.0]]))
     maps = LineMaps(ridge, spots((60.3, 60.3)) if seen else np.zeros_like(ridge))
-    assert build_graph(maps, 2.0, Settings()).branch_count == (3 if seen else 1)
+    assert build_graph(Evidence(maps, 2.0), Settings()).branch_count == (3 if seen else 1)
 
 
 @pytest.mark.parametrize("seen", [True, False])
@@ -235,7 +235,8 @@ def test_a_faint_rung_stays_only_where_junctions_are_seen(seen: bool) -> None:
     rung = np.array([[60.3, 50.3], [60.3, 58.3]])
     ridge = np.maximum(drawn(*rails), 0.6 * drawn(rung))
     heat = spots((60.3, 50.3), (60.3, 58.3)) if seen else np.zeros_like(ridge)
-    assert build_graph(LineMaps(ridge, heat), 2.0, Settings()).branch_count == (5 if seen else 2)
+    graph = build_graph(Evidence(LineMaps(ridge, heat), 2.0), Settings())
+    assert graph.branch_count == (5 if seen else 2)
 
 
 def test_bands_of_rows_make_no_difference(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from involute.engine import Settings
-from involute.engine.graph import build_graph
+from involute.engine.graph import Evidence, build_graph
 from involute.engine.graph.chains import follow
 from involute.engine.values import LineMaps, PlanarGraph
 
@@ -38,7 +38,7 @@ def check(graph: PlanarGraph, shape: tuple[int, int]) -> None:
 
 
 def traced(image: np.ndarray) -> PlanarGraph:
-    return build_graph(LineMaps(image.astype(np.float32) / 255), 2.0, Settings())
+    return build_graph(Evidence(LineMaps(image.astype(np.float32) / 255), 2.0), Settings())
 
 
 @pytest.mark.parametrize("shape", [(1, 1), (1, 30), (2, 2), (40, 3), (64, 80)])

@@ -9,8 +9,8 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from involute.engine import Settings
-from involute.engine.graph import build_graph
-from involute.engine.graph.planarity import planarized
+from involute.engine.graph import Evidence, build_graph
+from involute.engine.graph.planarity import planarize
 from involute.engine.values import LineMaps, PlanarGraph
 
 SIZE = 200
@@ -28,7 +28,7 @@ def graph_of_random(seed: int, count: int) -> PlanarGraph:
         fixed = np.rint((line * 8 - 0.5) * 64).astype(np.int32)
         cv2.polylines(big, [fixed.reshape(-1, 1, 2)], False, 255, 8, cv2.LINE_8, 6)
     image = cv2.resize(big, (SIZE, SIZE), interpolation=cv2.INTER_AREA)
-    return build_graph(LineMaps(image.astype(np.float32) / 255), 2.0, Settings())
+    return build_graph(Evidence(LineMaps(image.astype(np.float32) / 255), 2.0), Settings())
 
 
 def stray_crossings(graph: PlanarGraph, tolerance: float = 1.5) -> int:
@@ -70,7 +70,7 @@ def test_lines_that_cross_get_a_vertex() -> None:
         np.array([0, len(ring), len(ring) + len(line)], np.int32),
         np.array([[0, 0], [1, 2]], np.int32),
     )
-    fixed = planarized(graph, (100, 100))
+    fixed = planarize(graph, Evidence(LineMaps(np.zeros((100, 100), np.float32)), 2.0), Settings())
     assert sorted(fixed.degrees.tolist()) == [1, 1, 4, 4]
     assert fixed.branch_count == 5
     assert stray_crossings(fixed, 0.1) == 0

@@ -7,13 +7,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from hypothesis import given
-from hypothesis import strategies as st
 from involute.engine import Settings
-from involute.engine.graph import trim
+from involute.engine.graph import Evidence
+from involute.engine.graph.removal.stubs import remove_stubs
 from involute.engine.graph.topology import lengths
 from involute.engine.routing import route
-from involute.engine.values import PlanarGraph
+from involute.engine.values import LineMaps, PlanarGraph
 from involute.synthesis.true_graph import graph_from_strokes
+
+from tests.engine.scribbles import scribbles
 
 PEN = 3.0
 GEOMETRIC = Settings(router="geometric")
@@ -24,6 +26,12 @@ def measured(*strokes) -> tuple[PlanarGraph, np.ndarray]:
     """The graph of strokes of one pen, and how they run through it."""
     graph, partner = graph_from_strokes([np.asarray(s, float) for s in strokes])
     return replace(graph, widths=np.full(len(graph.points), PEN, np.float32)), partner
+
+
+def trim(graph: PlanarGraph, partner: np.ndarray, settings: Settings) -> PlanarGraph:
+    """The graph without its stubs."""
+    page = Evidence(LineMaps(np.zeros((1, 1), np.float32)), PEN)
+    return remove_stubs(graph, page.routed(partner), settings)
 
 
 def test_a_rung_between_two_lines_goes():
@@ -56,9 +64,9 @@ def test_nothing_to_trim():
     assert trim(empty, np.zeros(0, np.int32), Settings()) is empty
 
 
-@given(st.integers(0, 10_000), st.integers(1, 12))
-def test_only_stubs_go(scribble, seed, count):
-    graph, _ = scribble(seed, count)
+@given(scribbles(12))
+def test_only_stubs_go(scribble, drawn):
+    graph, _ = scribble(drawn)
     graph = replace(graph, widths=np.full(len(graph.points), PEN, np.float32))
     partner = route(graph, GEOMETRIC).partner
     left = trim(graph, partner, Settings())

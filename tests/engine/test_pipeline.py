@@ -158,7 +158,7 @@ def test_progress_only_grows_and_ends_near_one():
     assert fractions == sorted(fractions)
     assert 0 <= fractions[0] < fractions[-1] <= 1
     stages = list(dict.fromkeys(stage for stage, _ in told))
-    assert stages == ["scan", "solids", "centerline", "graph", "routing", "strokes"]
+    assert stages == ["scan", "solids", "centerline", "graph", "routing", "strokes", "check"]
 
 
 def test_cancelling():

@@ -131,6 +131,24 @@ def test_drawn_things_are_not_marks(draw):
     assert not marks_of(image).mask.any()
 
 
+@pytest.mark.parametrize("width", [4, 8, 12])
+def test_a_line_along_the_edge_is_drawn(width):
+    image = page("none", drawing=False)
+    path = [(60, 100), (60, 640), (100, 699 - width // 3), (800, 699 - width // 3), (840, 640)]
+    cv2.polylines(image, [np.int32([*path, (840, 100)])], False, INK, width, cv2.LINE_AA)
+    assert not marks_of(image).mask.any()
+    cv2.rectangle(image, (0, 0), (SIZE[0] - 1, SIZE[1] - 1), INK, 2 * width - 1)
+    assert not marks_of(image).mask.any()
+
+
+def test_what_was_set_aside_is_told():
+    image, _ = laid(page("acme", crosses=True), 1.2, (4, -6), lid=15)
+    scan = set_aside(scan_of(image, sheet=False), Settings())
+    (note,) = scan.notes
+    assert "dark borders of the scan, 3 punched holes" in note
+    assert not set_aside(scan_of(page("none")), Settings()).notes
+
+
 def test_pages_are_brought_to_one_place():
     target = anchors_of(scan_of(page()))
     straight = set_aside(scan_of(page()), Settings())

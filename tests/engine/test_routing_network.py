@@ -18,6 +18,8 @@ from involute.engine.routing.windows import windows
 from involute.engine.values import PlanarGraph
 from involute.synthesis.true_graph import graph_from_strokes
 
+from tests.engine.scribbles import scribbles
+
 NETWORK = Settings(router="network")
 Scribble = Callable[..., tuple[PlanarGraph, np.ndarray]]
 
@@ -48,12 +50,12 @@ def _warped(graph: PlanarGraph) -> PlanarGraph:
     return replace(graph, vertices=bend(graph.vertices), points=bend(graph.points))
 
 
-@given(st.integers(0, 999), st.floats(0, 6.28), st.floats(-500, 500))
+@given(scribbles(), st.floats(0, 6.28), st.floats(-500, 500))
 @settings(max_examples=10)
 def test_turning_and_moving_the_page_changes_nothing(
-    scribble: Scribble, seed: int, angle: float, shift: float
+    scribble: Scribble, drawn: list[int], angle: float, shift: float
 ) -> None:
-    graph = _warped(scribble(seed)[0])
+    graph = _warped(scribble(drawn)[0])
     turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
     moved = replace(
         graph,
@@ -67,10 +69,10 @@ def test_turning_and_moving_the_page_changes_nothing(
     assert not len(change) or np.median(change) < 0.02
 
 
-@given(st.integers(0, 999))
+@given(scribbles())
 @settings(max_examples=10)
-def test_the_direction_of_a_branch_does_not_matter(scribble: Scribble, seed: int) -> None:
-    graph = _warped(scribble(seed)[0])
+def test_the_direction_of_a_branch_does_not_matter(scribble: Scribble, drawn: list[int]) -> None:
+    graph = _warped(scribble(drawn)[0])
     order = np.concatenate(
         [np.arange(a, b)[::-1] for a, b in zip(graph.offsets, graph.offsets[1:], strict=False)]
     )
@@ -129,10 +131,12 @@ def test_empty_slots_and_other_pages_sizes_change_no_score(scribble: Scribble) -
     np.testing.assert_array_equal(narrow.pairs, wide.pairs[:, :slots, :slots])
 
 
-@given(st.integers(0, 999), st.integers(2, 400))
+@given(scribbles(12), st.integers(2, 400))
 @settings(max_examples=20, deadline=None)
-def test_a_drawing_in_parts_is_the_whole_drawing(scribble: Scribble, seed: int, most: int) -> None:
-    graph, _ = scribble(seed, 12)
+def test_a_drawing_in_parts_is_the_whole_drawing(
+    scribble: Scribble, drawn: list[int], most: int
+) -> None:
+    graph, _ = scribble(drawn)
     if not len(graph.junctions):
         return
     whole = encode(graph)

@@ -13,8 +13,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 from involute.engine import InvoluteError, Settings
+from involute.engine.scan import page_count, read_scan
 from involute.engine.scan.paper import flatten_paper
-from involute.engine.scan.preparing import measure_pen, page_count, read_scan
+from involute.engine.scan.pen_width import measure_pen
+from involute.engine.scan.picture import checked_picture
+from involute.engine.scan.polarity import is_light_on_dark
 
 DATA = Path(__file__).parent / "data"
 SETTINGS = Settings()
@@ -214,6 +217,31 @@ def test_polarity_can_be_told():
     assert ink_of(mostly_black, polarity="dark")[20, 20] > 0.9
 
 
+@pytest.mark.parametrize("light", [False, True])
+@pytest.mark.parametrize("width", [1, 4, 12, 20])
+def test_a_frame_on_the_picture_s_edge_is_ink_and_no_paper(width, light):
+    picture = page()
+    cv2.rectangle(picture, (0, 0), tuple(s - 1 for s in picture.shape[::-1]), 0, 2 * width - 1)
+    assert is_light_on_dark(255 - picture if light else picture, SETTINGS) is light
+
+
+@pytest.mark.parametrize("line", [255, 0, 128])
+@pytest.mark.parametrize("dtype", [np.uint8, np.uint16, np.float32])
+def test_lines_on_a_transparent_ground_show_whatever_their_lightness(line, dtype):
+    picture = np.full((*page().shape, 4), line, np.uint8)
+    picture[..., 3] = 255 - page()
+    top = 1 if dtype is np.float32 else np.iinfo(dtype).max
+    assert_same_lines(ink_of((picture / 255 * top).astype(dtype)), page())
+
+
+def test_a_painted_figure_on_a_transparent_ground_lies_on_white():
+    picture = np.full((*page().shape, 4), 235, np.uint8)  # light paint with dark lines
+    picture[20:-20, 20:-20, :3] = page()[20:-20, 20:-20, None]
+    picture[..., 3] = 0
+    picture[10:-10, 10:-10, 3] = 255
+    assert not is_light_on_dark(checked_picture(picture, 0), SETTINGS)
+
+
 def test_light_lines_keep_their_hue():
     picture = np.zeros((100, 100, 3), np.uint8)
     cv2.line(picture, (10, 50), (90, 50), (255, 0, 0), 5)
@@ -399,7 +427,7 @@ def test_missing_files_and_folders_are_named(tmp_path):
     for read in (lambda path: read_scan(path, SETTINGS), page_count):
         with pytest.raises(InvoluteError, match=r"no file .*gone\.png"):
             read(tmp_path / "gone.png")
-        with pytest.raises(InvoluteError, match="Can't read"):
+        with pytest.raises(InvoluteError, match="is a folder"):
             read(tmp_path)
 
 

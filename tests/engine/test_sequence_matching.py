@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from involute.engine.sequence.follow import follow, reverse, with_known_inks
+from involute.engine.ink.known_inks import with_known_inks
+from involute.engine.sequence.follow import follow, reverse
 from involute.engine.sequence.stroke_matching import match_strokes
 from involute.engine.values import Stroke
 

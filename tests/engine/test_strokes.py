@@ -16,6 +16,8 @@ from involute.engine.strokes.simplify import simplify
 from involute.engine.values import PlanarGraph, Stroke
 from involute.synthesis.true_graph import graph_from_strokes
 
+from tests.engine.scribbles import scribbles
+
 SHARP = Settings(smoothing=0.0, tolerance=0.0, min_length=0.0)
 
 
@@ -54,9 +56,9 @@ def _outline(stroke: Stroke) -> np.ndarray:
     return np.vstack(pieces)
 
 
-@given(st.integers(0, 500), st.integers(1, 12))
-def test_strokes_partition_the_branches(scribble, seed: int, count: int) -> None:
-    graph, partner = scribble(seed, count)
+@given(scribbles(12))
+def test_strokes_partition_the_branches(scribble, drawn: list[int]) -> None:
+    graph, partner = scribble(drawn)
     walks = walk(partner)
     seen = [half >> 1 for w in walks for half in w.halves]
     assert sorted(seen) == list(range(graph.branch_count))
@@ -85,19 +87,19 @@ def test_a_loop_at_a_junction_closes_on_itself_or_runs_on() -> None:
     assert np.hypot(*(stroke.points[[0, -1]] - [130, 100]).T).min() < 1e-3
 
 
-@given(st.integers(0, 500))
-def test_walking_some_branches_gives_their_strokes(scribble, seed: int) -> None:
-    graph, partner = scribble(seed)
+@given(scribbles())
+def test_walking_some_branches_gives_their_strokes(scribble, drawn: list[int]) -> None:
+    graph, partner = scribble(drawn)
     some = range(0, graph.branch_count, 3)
     expected = [w for w in walk(partner) if any(h >> 1 in some for h in w.halves)]
     assert walk(partner, some) == expected
 
 
-@given(
-    st.integers(0, 300), st.sampled_from([0.0, 0.3, 1.0]), st.sampled_from(["polyline", "bezier"])
-)
-def test_strokes_run_through_their_vertices(scribble, seed: int, smoothing: float, curve) -> None:
-    graph, partner = scribble(seed)
+@given(scribbles(), st.sampled_from([0.0, 0.3, 1.0]), st.sampled_from(["polyline", "bezier"]))
+def test_strokes_run_through_their_vertices(
+    scribble, drawn: list[int], smoothing: float, curve
+) -> None:
+    graph, partner = scribble(drawn)
     settings = Settings(smoothing=smoothing, curve=curve, min_length=0.0)
     for stroke in _drawn(graph, partner, settings):
         vertex = graph.half_vertex[stroke.branches]
@@ -110,9 +112,9 @@ def test_strokes_run_through_their_vertices(scribble, seed: int, smoothing: floa
         assert ((stroke.opacity >= 0) & (stroke.opacity <= 1)).all()
 
 
-@given(st.integers(0, 200))
-def test_a_stroke_does_not_depend_on_the_others(scribble, seed: int) -> None:
-    graph, partner = scribble(seed)
+@given(scribbles())
+def test_a_stroke_does_not_depend_on_the_others(scribble, drawn: list[int]) -> None:
+    graph, partner = scribble(drawn)
     page = Page.of(graph, Settings(min_length=0.0))
     walks = walk(partner)
     together = build(page, walks)
@@ -123,11 +125,11 @@ def test_a_stroke_does_not_depend_on_the_others(scribble, seed: int) -> None:
         np.testing.assert_array_equal(alone.widths, stroke.widths)
 
 
-@given(st.integers(0, 200), st.floats(0.05, 2.0))
+@given(scribbles(), st.floats(0.05, 2.0))
 def test_simplified_strokes_stay_within_the_tolerance(
-    scribble, seed: int, tolerance: float
+    scribble, drawn: list[int], tolerance: float
 ) -> None:
-    graph, partner = scribble(seed)
+    graph, partner = scribble(drawn)
     fine = _drawn(graph, partner, SHARP)
     coarse = _drawn(graph, partner, replace(SHARP, tolerance=tolerance))
     for a, b in zip(fine, coarse, strict=True):
@@ -136,9 +138,9 @@ def test_simplified_strokes_stay_within_the_tolerance(
         assert len(b.points) <= len(a.points)
 
 
-@given(st.integers(0, 200), st.floats(0.1, 2.0))
-def test_curves_stay_within_the_tolerance(scribble, seed: int, tolerance: float) -> None:
-    graph, partner = scribble(seed)
+@given(scribbles(), st.floats(0.1, 2.0))
+def test_curves_stay_within_the_tolerance(scribble, drawn: list[int], tolerance: float) -> None:
+    graph, partner = scribble(drawn)
     settings = replace(SHARP, tolerance=tolerance, smoothing=0.3)
     fine = _drawn(graph, partner, replace(settings, tolerance=0.0))
     curves = _drawn(graph, partner, replace(settings, curve="bezier"))

@@ -74,5 +74,5 @@ def test_a_drawing_in_pencil_alone_is_not_ignored_away():
 
 
 def test_there_is_no_such_ink():
-    with pytest.raises(InvoluteError, match="no ink 'mauve'; choose from"):
+    with pytest.raises(InvoluteError, match="can't be 'mauve'; choose from"):
         Settings(ignore_inks=("mauve",))

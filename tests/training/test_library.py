@@ -105,6 +105,15 @@ def test_an_added_set_and_another_order_move_no_drawing(folder: Path) -> None:
     assert 0.03 < np.mean(list(before.values())) < 0.2
 
 
+def test_a_copy_by_another_name_is_trained_on_like_the_drawing(tmp_path: Path) -> None:
+    # Generators make some drawings again and again: "Arch.arch02:27" and "Arch.arch02:147".
+    write_set(tmp_path, "tangles", [f"Arch.arch:{k}" for k in range(60)])
+    with np.load(tmp_path / "tangles.npz") as packed:
+        same = dict(packed) | {"points": np.tile(packed["points"][:2], (60, 1))}
+    np.savez(tmp_path / "tangles.npz", **same)
+    assert not read_sets(tmp_path, ["tangles"])["tangles"].held_out.any()
+
+
 @pytest.mark.parametrize(
     ("one", "other"),
     [

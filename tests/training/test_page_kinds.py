@@ -179,10 +179,10 @@ def test_rows_lie_along_pixels_more_often_than_not() -> None:
     assert exact > 15
 
 
-@pytest.mark.parametrize("kind", list(held_out_pages._KINDS))
+@pytest.mark.parametrize("kind", list(held_out_pages._LOOKS))
 def test_held_out_pages_show_their_strokes(kind: str) -> None:
     strokes = [line(40, 60, 400, 90), line(60, 300, 380, 40)]
-    image, style = held_out_pages._KINDS[kind](np.random.default_rng(3), strokes, 1)
+    image, style = held_out_pages._LOOKS[kind](np.random.default_rng(3), strokes, 1, 3.0)
     assert image.shape == (324, 424)
     assert "," in style
     if kind == "one bit":

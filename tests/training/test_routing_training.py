@@ -14,9 +14,9 @@ pytest.importorskip("torch", reason="training needs torch")
 pytest.importorskip("scipy", reason="training needs SciPy")
 
 import torch
+from involute.engine.involution import pair_matrix
 from involute.engine.routing import network
 from involute.engine.routing.encoding import PAIR_SIZE, TOKEN_SIZE
-from involute.engine.routing.involution import pair_matrix
 from involute.engine.settings import Settings
 from involute.synthesis.composed_pages import Library, net
 from involute.synthesis.true_graph import graph_from_strokes

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -13,11 +15,11 @@ from involute.engine.values import PlanarGraph
 from involute.training.undrawn.train_undrawn import _on_dots, _stipple, train
 
 
-def test_what_is_trained_is_what_the_engine_runs() -> None:
+def test_what_is_trained_is_what_the_engine_runs(tmp_path: Path) -> None:
     rng = np.random.default_rng(0)
     rows = rng.normal(0, 1, (3000, FEATURES)).astype(np.float32)
     labels = rows[:, 3] + rows[:, 5] > 1
-    net, figures = train(rows[:2000], labels[:2000], rows[2000:], labels[2000:], 400, 1)
+    net, figures = train(rows[:2000], labels[:2000], rows[2000:], labels[2000:], 400, 1, tmp_path)
     stated = probability(rows[2000:], net)
     assert ((stated > 0.5) == labels[2000:]).mean() > 0.95
     found = figures["above 0.5"]["found"]

@@ -35,7 +35,7 @@ def main(arguments: list[str] | None = None) -> None:
     options = parser.parse_args(arguments)
     net = restored(options.checkpoint)
     export(net, options.out)
-    digests.note(options.out)
+    digests.note(options.out, options.checkpoint.parent)
     print(f"{options.out.name}: {options.out.stat().st_size / 1e6:.1f} MB")
     print(f"OpenCV against torch: {worst_difference(net, options.out):.1e}")
 

@@ -1,25 +1,23 @@
 """Train the centerline network; stop and resume at any time.
 
-    python -m involute.training.centerline.train_centerline --data DIR --run RUN --minutes 120
+    python -m training run centerline --data DIR --run RUN --minutes 120
 
-RUN receives config.json, checkpoint.pt (resumed from when it exists) and log.jsonl, one line per
-validation: losses, share of ridge found, share of it that is true, junctions found.
+RUN is the folder of the run, see `training/loop.py`; its log has a line per validation: losses,
+share of ridge found, share of it that is true, junctions found.
 """
 
 from __future__ import annotations
 
 import argparse
-import copy
-import hashlib
-import json
 import math
-import time
 from pathlib import Path
 
 import numpy as np
 import torch
 from torch import Tensor
 
+from .. import lineage
+from ..loop import Schedule, Training
 from .losses import CENTERLINE_LOSSES, total_loss
 from .page_batches import Pages, degrade, loader, split, validation_pages
 from .page_figures import page_figures, pooled
@@ -51,121 +49,35 @@ def main(arguments: list[str] | None = None) -> None:
     train(parser.parse_args(arguments))
 
 
-class Run:
-    """What a checkpoint holds: network, its running mean, optimiser, clock."""
-
-    def __init__(self, options: argparse.Namespace) -> None:
-        self.folder = options.run
-        self.device = torch.device(options.device)
-        torch.manual_seed(options.seed)
-        if options.start_from:
-            self.net = restored(options.start_from).train()
-        else:
-            self.net = CenterlineNet(tuple(options.widths))
-        self.net = self.net.to(self.device, memory_format=torch.channels_last)
-        self.mean = copy.deepcopy(self.net).eval().requires_grad_(False)
-        self.optimiser = torch.optim.AdamW(self.net.parameters(), options.rate, weight_decay=1e-2)
-        self.step, self.seconds = 0, 0.0
-        if (self.folder / "checkpoint.pt").exists():
-            self._load(self.folder / "checkpoint.pt")
-
-    def _load(self, path: Path) -> None:
-        state = torch.load(path, map_location=self.device)
-        self.net.load_state_dict(state["net"])
-        self.mean.load_state_dict(state["mean"])
-        self.optimiser.load_state_dict(state["optimiser"])
-        self.step, self.seconds = state["step"], state["seconds"]
-
-    def save(self) -> None:
-        """Write the checkpoint; a stop while writing leaves the old one."""
-        state = {
-            "net": self.net.state_dict(),
-            "mean": self.mean.state_dict(),
-            "optimiser": self.optimiser.state_dict(),
-            "step": self.step,
-            "seconds": self.seconds,
-        }
-        torch.save(state, self.folder / "checkpoint.new")
-        (self.folder / "checkpoint.new").replace(self.folder / "checkpoint.pt")
-
-    @torch.no_grad()
-    def follow(self) -> None:
-        """Move the running mean; its memory grows with the number of steps up to 1000."""
-        keep = min(0.999, (1 + self.step) / (10 + self.step))
-        for slow, fast in zip(
-            self.mean.state_dict().values(), self.net.state_dict().values(), strict=True
-        ):
-            if slow.dtype.is_floating_point:
-                slow.lerp_(fast, 1 - keep)
-            else:
-                slow.copy_(fast)
-
-
-def learning_rate(progress: float, step: int, highest: float) -> float:
-    """Warm-up over 200 steps, then a cosine down to a hundredth."""
-    cosine = 0.5 * (1 + math.cos(math.pi * min(1.0, progress)))
-    return highest * min(1.0, (step + 1) / 200) * (0.01 + 0.99 * cosine)
-
-
 def train(options: argparse.Namespace) -> None:
     """Run the schedule, or the piece of it that --stop-after allows."""
     torch.set_num_threads(options.threads)
-    options.run.mkdir(parents=True, exist_ok=True)
-    run = Run(options)
-    record = {k: str(v) if isinstance(v, Path) else v for k, v in vars(options).items()}
-    record |= {"data_sha256": data_hash(options.data), "torch": torch.__version__}
-    record |= {"weights": sum(p.numel() for p in run.net.parameters())}
-    (options.run / "config.json").write_text(json.dumps(record, indent=1, default=str))
-    check = validation_pages(options.data, 24)
-    pages = Pages(
-        options.data, options.batch, options.crop, options.fresh, options.seed + 7919 * run.step
+    torch.manual_seed(options.seed)
+    device = torch.device(options.device)
+    if options.start_from:
+        net = restored(options.start_from).train()
+    else:
+        net = CenterlineNet(tuple(options.widths))
+    net = net.to(device, memory_format=torch.channels_last)
+    weights = sum(p.numel() for p in net.parameters())
+    lineage.note_run(options.run, options, torch=torch.__version__, weights=weights)
+    schedule = Schedule(
+        options.steps, options.minutes, options.stop_after, options.rate, every=options.every
     )
-    generator = torch.Generator(run.device).manual_seed(options.seed + run.step)
-    begin = last = time.monotonic()
-    parts: dict[str, float] = {}
-    for batch in loader(pages, options.workers):
-        now = time.monotonic()
-        run.seconds += now - last
-        last = now
-        progress = max((run.step + 1) / options.steps, run.seconds / (60 * options.minutes))
-        losses = _step(run, batch, generator, progress, options)
-        for name, value in losses.items():
-            parts[name] = 0.98 * parts.get(name, float(value)) + 0.02 * float(value)
-        done = progress >= 1
-        if run.step % options.every == 0 or done:
-            figures = {"step": run.step, "minutes": round(run.seconds / 60, 2)}
-            figures |= {f"train_{k}": round(v, 5) for k, v in parts.items()}
-            figures |= validate(run.mean, check, run.device)
-            with open(options.run / "log.jsonl", "a") as log:
-                log.write(json.dumps(figures) + "\n")
-        if run.step % 200 == 0 or done:
-            run.save()
-        if done or now - begin > 60 * options.stop_after:
-            break
-    run.save()
+    training = Training(options.run, net, schedule)
+    check = validation_pages(options.data, 24)
+    seed = options.seed + 7919 * training.step
+    pages = Pages(options.data, options.batch, options.crop, options.fresh, seed)
+    noise = torch.Generator(device).manual_seed(options.seed + training.step)
 
+    def loss(net: CenterlineNet, batch: Tensor) -> dict[str, Tensor]:
+        ink, truth = split(batch.to(device, non_blocking=True))
+        ink = degrade(ink, noise)
+        with torch.autocast(device.type, torch.bfloat16, enabled=device.type != "mps"):
+            raw = net(ink)
+        return total_loss(raw.float(), truth, options.loss)
 
-def _step(
-    run: Run,
-    batch: Tensor,
-    generator: torch.Generator,
-    progress: float,
-    options: argparse.Namespace,
-) -> dict[str, Tensor]:
-    for group in run.optimiser.param_groups:
-        group["lr"] = learning_rate(progress, run.step, options.rate)
-    ink, truth = split(batch.to(run.device, non_blocking=True))
-    ink = degrade(ink, generator)
-    with torch.autocast(run.device.type, torch.bfloat16, enabled=run.device.type != "mps"):
-        raw = run.net(ink)
-    losses = total_loss(raw.float(), truth, options.loss)
-    run.optimiser.zero_grad(set_to_none=True)
-    losses["total"].backward()
-    torch.nn.utils.clip_grad_norm_(run.net.parameters(), 1.0)
-    run.optimiser.step()
-    run.step += 1
-    run.follow()
-    return {name: value.detach() for name, value in losses.items()}
+    training.run(loader(pages, options.workers), loss, lambda mean: validate(mean, check, device))
 
 
 @torch.no_grad()
@@ -178,15 +90,6 @@ def validate(net: CenterlineNet, check: np.ndarray, device: torch.device) -> dic
         totals.append(float(total_loss(raw, truth)["total"]))
         figures.append(page_figures(raw.sigmoid()[0].cpu().numpy(), truth[0].cpu().numpy()))
     return {"loss": round(float(np.mean(totals)), 5)} | pooled(figures)
-
-
-def data_hash(folder: Path) -> str:
-    """A short digest of the drawings a run was trained on."""
-    digest = hashlib.sha256()
-    for path in sorted(folder.glob("*.npz")):
-        digest.update(path.name.encode())
-        digest.update(path.read_bytes())
-    return digest.hexdigest()[:16]
 
 
 if __name__ == "__main__":

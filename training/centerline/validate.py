@@ -15,7 +15,7 @@ import numpy as np
 from involute.engine.centerline.backends import load
 from involute.engine.centerline.classical import classical
 from involute.engine.centerline.learned import HALF_WIDTH_UNIT, WEIGHTS, trace_maps
-from involute.engine.scan.preparing import measure_pen
+from involute.engine.scan.pen_width import measure_pen
 from involute.engine.values import LineMaps, Scan
 
 from ...synthesis.line_art import Array, Library

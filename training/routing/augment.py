@@ -10,6 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+from involute.engine.arrays.ragged import owners, steps
 from involute.engine.values import Pair, PlanarGraph
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
@@ -116,17 +117,12 @@ def contracted(page: Page, length: float) -> Page:
 
 
 def _lengths(graph: PlanarGraph) -> Array:
-    step = np.hypot(*np.diff(graph.points, axis=0, append=graph.points[-1:]).T)
-    step[graph.offsets[1:] - 1] = 0
-    return np.add.reduceat(step, graph.offsets[:-1])
+    return np.add.reduceat(steps(graph.points, graph.offsets), graph.offsets[:-1])
 
 
 def _arcs(graph: PlanarGraph) -> tuple[Array, Array, Array]:
     """Per point: its branch, the arc length from the branch's start, and the branch's length."""
-    step = np.hypot(*np.diff(graph.points, axis=0, prepend=graph.points[:1]).T)
-    step[graph.offsets[:-1]] = 0
-    arc = np.cumsum(step)
-    branch = np.repeat(np.arange(graph.branch_count), np.diff(graph.offsets))
+    arc, branch = np.cumsum(steps(graph.points, graph.offsets)), owners(graph.offsets)
     arc -= arc[graph.offsets[:-1]][branch]
     return branch, arc, arc[graph.offsets[1:] - 1][branch]
 
@@ -165,7 +161,7 @@ def _inked(rng: np.random.Generator, page: Page) -> PlanarGraph:
     if not len(stroke) or rng.random() < 0.4:
         return replace(graph, widths=None, strength=None, colors=None)
     count = max(int(stroke.max()) + 1, 1)
-    branch = np.repeat(np.arange(graph.branch_count), np.diff(graph.offsets))
+    branch = owners(graph.offsets)
     noise = rng.normal(0, 1, graph.branch_count)[branch]
     pen = np.log(rng.uniform(1.5, 7)) + rng.normal(0, rng.choice([0.0, 0.1, 0.3]), count)
     width = np.exp(pen[stroke] + rng.uniform(0.02, 0.2) * noise)

@@ -1,6 +1,6 @@
 """Calibrate trained weights and write what the engine ships.
 
-`python -m training.routing.export_routing CHECKPOINT ... --data DIR` writes routing.onnx and
+`python -m training run routing-export CHECKPOINT ... --data DIR` writes routing.onnx and
 routing.json (a scale and a shift of the scores by degree, fitted on held-out drawings). Of several
 checkpoints that were trained on from the same weights, the mean is taken: it keeps most of what
 each of them learnt. One that is named twice counts twice.
@@ -10,14 +10,15 @@ from __future__ import annotations
 
 import argparse
 import json
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 import torch
 from involute.engine import weights as shipped
 from involute.engine.routing.encoding import PAIR_SIZE, TOKEN_SIZE
+from involute.synthesis.composed_pages import Library
 
-from ...synthesis.composed_pages import Library
 from .. import digests
 from .graph_bank import Batch
 from .likelihood import exact
@@ -27,13 +28,14 @@ from .train_routing import run, validation
 _DEGREES = 4  # 3, 4, 5, and 6 or more
 
 
-def main() -> None:
+def main(argv: Sequence[str] | None = None) -> None:
+    """The command line."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("checkpoints", type=Path, nargs="+")
     parser.add_argument("--data", type=Path, required=True, help="folder of SOURCE.npz drawings")
     parser.add_argument("--traced", type=Path, help="held-out pages by training.routing.traced")
     parser.add_argument("--out", type=Path, default=shipped.FOLDER)
-    args = parser.parse_args()
+    args = parser.parse_args(argv)
     net = load(*args.checkpoints)
     library = Library.load(args.data, held_out=True)
     held_out = validation(library, args.traced, pages=80, seed=11)
@@ -41,7 +43,9 @@ def main() -> None:
     args.out.mkdir(parents=True, exist_ok=True)
     (args.out / "routing.json").write_text(json.dumps(calibration, indent=1) + "\n")
     export(net, args.out / "routing.onnx")
-    digests.note(args.out / "routing.onnx")
+    runs = [checkpoint.parent for checkpoint in dict.fromkeys(args.checkpoints)]
+    for name in ("routing.json", "routing.onnx"):
+        digests.note(args.out / name, *runs)
 
 
 def load(*checkpoints: Path) -> RoutingNet:

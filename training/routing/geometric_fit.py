@@ -1,8 +1,8 @@
 """Fit the weights of `engine/routing/geometric.py` to the true strokes of drawings.
 
-    python -m involute.training.routing.traced --data FOLDER --out traced.npz --pages 110
-    python -m involute.training.routing.traced --data FOLDER --out held.npz --pages 40 --held-out
-    python -m involute.training.routing.geometric_fit --data FOLDER --traced traced.npz \\
+    python -m training run traced --data FOLDER --out traced.npz --pages 110
+    python -m training run traced --data FOLDER --out held.npz --pages 40 --held-out
+    python -m training run routing-geometric --data FOLDER --traced traced.npz \\
         --traced-held-out held.npz
 
 The weights maximise the likelihood of the true involution of every junction among all involutions
@@ -16,19 +16,19 @@ from __future__ import annotations
 
 import argparse
 from collections import defaultdict
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+from involute.engine.involution import pair_matrix
 from involute.engine.routing.candidates import by_degree, candidate_pairs, pair_starts
 from involute.engine.routing.features import FEATURES, pair_features
-from involute.engine.routing.involution import pair_matrix
 from involute.engine.values import PlanarGraph
+from involute.synthesis.library import DrawingSet, read_sets
+from involute.synthesis.true_graph import graph_from_strokes
 from scipy.optimize import minimize
 
-from ...synthesis.library import DrawingSet, read_sets
-from ...synthesis.true_graph import graph_from_strokes
 from . import traced
 
 Array = np.ndarray
@@ -192,13 +192,14 @@ def report(name: str, data: Examples, weights: Array) -> None:
     )
 
 
-def main() -> None:
+def main(argv: Sequence[str] | None = None) -> None:
+    """The command line."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--data", type=Path, required=True, help="folder with the .npz sets")
     parser.add_argument("--traced", type=Path, help="pages that traced.py made")
     parser.add_argument("--traced-held-out", type=Path, help="the same with its --held-out")
     parser.add_argument("--seed", type=int, default=0)
-    args = parser.parse_args()
+    args = parser.parse_args(argv)
     learnt, judged = examples(
         args.data, args.traced, args.traced_held_out, np.random.default_rng(args.seed)
     )

@@ -9,10 +9,10 @@ from pathlib import Path
 import numpy as np
 import torch
 from involute.engine.routing.encoding import Encoding, encode
+from involute.synthesis.composed_pages import Library, loosened
+from involute.synthesis.true_graph import graph_from_strokes
 from torch.utils.data import DataLoader, IterableDataset, get_worker_info
 
-from ...synthesis.composed_pages import Library, loosened
-from ...synthesis.true_graph import graph_from_strokes
 from .augment import Page, augmented, random_fixed
 from .traced import load
 

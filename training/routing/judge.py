@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from involute.engine.routing.involution import MAX_LISTED_DEGREE, pair_matrix
+from involute.engine.involution import MAX_LISTED_DEGREE, pair_matrix
 from involute.engine.values import PlanarGraph
 
 Array = np.ndarray

@@ -12,6 +12,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from involute.engine.arrays.ragged import along as along_line
+from involute.engine.arrays.ragged import arc, ranges, steps
 from involute.engine.routing.encoding import along
 from involute.engine.values import PlanarGraph
 from scipy.spatial import cKDTree
@@ -58,8 +60,6 @@ def labelled(graph: PlanarGraph, strokes: list[Array]) -> Page:
     """
     strokes = single_lines(strokes)
     partner = np.arange(2 * graph.branch_count)
-    loop = np.flatnonzero(graph.degrees[graph.half_vertex] == 2)
-    partner[loop] = loop ^ 1
     owner = np.full(len(partner), -1)
     if strokes and graph.branch_count:
         lines = _Lines.of(strokes)
@@ -75,9 +75,7 @@ def labelled(graph: PlanarGraph, strokes: list[Array]) -> Page:
 
 def unowned(page: Page) -> float:
     """Which share of the length of all branches no stroke made."""
-    points, first = page.graph.points, page.graph.offsets[:-1]
-    step = np.hypot(*np.diff(points, axis=0, prepend=points[:1]).T)
-    step[first] = 0
+    step = steps(page.graph.points, page.graph.offsets)
     return float(step[page.stroke < 0].sum() / max(step.sum(), 1e-6))
 
 
@@ -96,12 +94,12 @@ class _Lines:
     def of(strokes: list[Array]) -> _Lines:
         place, arcs, length = [], [], []
         for line in strokes:
-            arc = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(line, axis=0).T))])
-            at = np.linspace(0, arc[-1], max(2, round(arc[-1]) + 1))
-            place.append(np.stack([np.interp(at, arc, line[:, c]) for c in (0, 1)], 1))
+            whole = arc(line)[-1]
+            at = np.linspace(0, whole, max(2, round(whole) + 1))
+            place.append(along_line(line, at))
             arcs.append(at)
             closed = np.hypot(*(line[0] - line[-1])) < 2
-            length.append(arc[-1] if closed else np.inf)
+            length.append(whole if closed else np.inf)
         tangent = np.concatenate([np.gradient(line, axis=0) for line in place])
         tangent /= np.maximum(np.hypot(*tangent.T), 1e-9)[:, None]
         stroke = np.repeat(np.arange(len(place)), [len(line) for line in place])
@@ -231,6 +229,5 @@ def _same(keys: Array) -> tuple[Array, Array]:
     size = np.bincount(group)
     start = np.cumsum(size) - size
     each = size[group[order]]
-    inside = np.arange(each.sum()) - np.repeat(np.cumsum(each) - each, each)
-    a, b = np.repeat(order, each), order[np.repeat(start[group[order]], each) + inside]
+    a, b = np.repeat(order, each), order[ranges(start[group[order]], each)]
     return a[a != b], b[a != b]

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 import torch
-from involute.engine.routing.involution import pair_matrix
+from involute.engine.involution import pair_matrix
 from torch import Tensor
 
 _BLOCKED = -1e4

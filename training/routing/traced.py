@@ -1,6 +1,6 @@
 """Graphs as our own centerline and graph stages really make them, matched back to the true strokes.
 
-`python -m training.routing.traced --data DIR --out FILE --pages N` draws pages of true strokes,
+`python -m training run traced --data DIR --out FILE --pages N` draws pages of true strokes,
 traces them and writes the graphs with their routing: after the rasterised set of "Stroke
 Vectorization via Involution Prediction" (routing data), but from real drawings as well. Started
 again with the same FILE, it goes on where it stopped.
@@ -9,23 +9,25 @@ again with the same FILE, it goes on where it stopped.
 from __future__ import annotations
 
 import argparse
-from concurrent.futures import ProcessPoolExecutor
+from collections.abc import Sequence
 from itertools import pairwise
-from multiprocessing import get_context
 from pathlib import Path
 
 import cv2
 import numpy as np
 from involute.engine.centerline import provider_for
 from involute.engine.fills.solids import split_solids
-from involute.engine.graph import build_graph, measure, sweep
-from involute.engine.scan.preparing import MIN_SIDE, read_scan
+from involute.engine.graph import Evidence, run_passes
+from involute.engine.graph.passes import MEASURED, ROUTED
+from involute.engine.scan.picture import MIN_SIDE
+from involute.engine.scan.preparing import read_scan
 from involute.engine.settings import Settings
 from involute.engine.values import LineMaps, PlanarGraph, Scan
+from involute.synthesis.composed_pages import Library, loosened
+from involute.synthesis.media import MEDIA, draw, line_spacing, sample
+from involute.synthesis.sheet_of_paper import paper, scan, shadow
 
-from ...synthesis.composed_pages import Library, loosened
-from ...synthesis.media import MEDIA, draw, line_spacing, sample
-from ...synthesis.sheet_of_paper import paper, scan, shadow
+from ..page_bank import PageBank
 from .augment import Page
 from .labels import labelled, unowned
 
@@ -39,7 +41,8 @@ _KINDS = (0.15, 0.25, 0.6)  # shares of ideal, inked and scanned pages
 MOST_FALSE = 0.3  # of the length of all branches: more than this that nobody drew is no drawing
 
 
-def main() -> None:
+def main(argv: Sequence[str] | None = None) -> None:
+    """The command line."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--data", type=Path, required=True, help="folder of SOURCE.npz drawings")
     parser.add_argument("--out", type=Path, required=True)
@@ -48,17 +51,10 @@ def main() -> None:
     parser.add_argument("--jobs", type=int, default=1, help="parallel processes")
     parser.add_argument("--provider", default="auto", help="centerline: network or classical")
     parser.add_argument("--held-out", action="store_true", help="from the validation drawings")
-    args = parser.parse_args()
-    tried, pages = (
-        (int(np.load(args.out)["tried"]), load(args.out)) if args.out.exists() else (0, [])
+    args = parser.parse_args(argv)
+    PageBank(args.out, _with_tries, save, _SAVED).filled(
+        args.pages, _numbered_page, args.jobs, _prepare, (args,)
     )
-    with ProcessPoolExecutor(args.jobs, get_context("spawn"), _prepare, (args,)) as pool:
-        while tried < args.pages:
-            numbers = range(tried, min(tried + _SAVED, args.pages))
-            pages += [page for page in pool.map(_numbered_page, numbers) if page]
-            tried = numbers.stop
-            save(args.out, pages, tried)
-            print(f"{len(pages)} pages of {tried} tries", flush=True)
 
 
 def _prepare(args: argparse.Namespace) -> None:
@@ -84,15 +80,20 @@ def traced_page(rng: np.random.Generator, library: Library, settings: Settings) 
         return None
     look = (look_ideal, look_ink, look_scan)[int(rng.choice(3, p=_KINDS))]
     maps, scan = look(rng, strokes, settings)
-    page = labelled(graph_of(maps, scan, settings), [line / scan.scale for line in strokes])
+    strokes = [line / scan.scale for line in strokes]
+    page = labelled(graph_of(maps, scan, settings), strokes)
+    # Stubs go as the true strokes tell them: what is left is what the last routing will see.
+    known = Evidence.of(scan, maps).routed(page.partner)
+    left = run_passes(known, settings, page.graph, start=ROUTED) if scan.ink.any() else page.graph
+    page = page if left is page.graph else labelled(left, strokes)
     good = len(page.graph.junctions) and unowned(page) < MOST_FALSE
     return page if good else None
 
 
 def graph_of(maps: LineMaps, scan: Scan, settings: Settings) -> PlanarGraph:
-    """The graph as the engine makes it; an ideal page has no ink to measure, nor dust."""
-    graph = build_graph(maps, scan.pen_width, settings)
-    return sweep(measure(graph, scan, maps), settings) if scan.ink.any() else graph
+    """The graph as the engine first routes it; an ideal page has no ink to measure, nor dust."""
+    cut = ROUTED if scan.ink.any() else MEASURED
+    return run_passes(Evidence.of(scan, maps), settings, until=cut)
 
 
 def on_canvas(strokes: list[Array]) -> list[Array]:
@@ -179,14 +180,17 @@ def save(path: Path, pages: list[Page], tried: int = 0) -> None:
     for name in ("partner", "stroke"):
         arrays[name] = np.concatenate([getattr(page, name) for page in pages])
     sizes = [(len(p.graph.vertices), len(p.graph.points), p.graph.branch_count) for p in pages]
-    part = path.with_suffix(".part.npz")  # a run that is stopped leaves the last whole file
-    np.savez_compressed(part, sizes=np.array(sizes), tried=np.array(tried), **arrays)
-    part.replace(path)
+    np.savez_compressed(path, sizes=np.array(sizes), tried=np.array(tried), **arrays)
 
 
 def _or_nan(page: Page, name: str) -> Array:
     values = getattr(page.graph, name)
     return np.full(len(page.graph.points), np.nan if values is None else values, np.float16)
+
+
+def _with_tries(path: Path) -> tuple[list[Page], int]:
+    with np.load(path) as data:
+        return load(path), int(data["tried"])
 
 
 def load(path: Path) -> list[Page]:

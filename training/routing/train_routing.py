@@ -1,22 +1,20 @@
-"""Train the routing network: `python -m training.routing.train_routing --data DIR --out DIR`.
+"""Train the routing network: `python -m training run routing --data DIR --out RUN`.
 
-Resumable: a run that finds its own checkpoint in --out goes on where it stopped. Every
-evaluation is a line of JSON in --out/log.jsonl.
+RUN is the folder of the run, see `training/loop.py`; a run that exists goes on where it stopped.
 """
 
 from __future__ import annotations
 
 import argparse
-import json
-import math
-import time
-from copy import deepcopy
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 import torch
+from involute.synthesis.composed_pages import Library
 
-from ...synthesis.composed_pages import Library
+from .. import lineage
+from ..loop import Schedule, Training
 from . import likelihood
 from .augment import augmented
 from .graph_bank import Batch, Batches, encoded, joined, true_page
@@ -27,7 +25,8 @@ from .traced import load
 from .widen import widened
 
 
-def main() -> None:
+def main(argv: Sequence[str] | None = None) -> None:
+    """The command line."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--data", type=Path, required=True, help="folder of SOURCE.npz drawings")
     parser.add_argument("--out", type=Path, required=True)
@@ -47,62 +46,37 @@ def main() -> None:
     parser.add_argument("--traced-held-out", type=Path, help="the same, to validate on")
     parser.add_argument("--traced-share", type=float, default=0.4)
     parser.add_argument("--start", type=Path, help="checkpoint.pt or routing.onnx to start from")
-    train(parser.parse_args())
+    train(parser.parse_args(argv))
 
 
 def train(args: argparse.Namespace) -> None:
     """Run the training that the arguments describe."""
-    args.out.mkdir(parents=True, exist_ok=True)
     torch.manual_seed(args.seed)
     net = _first(args).to(args.device)
-    mean = deepcopy(net).eval()
-    optimizer = torch.optim.AdamW(net.parameters(), lr=args.rate, weight_decay=0.01)
-    checkpoint, first, before = args.out / "checkpoint.pt", 0, 0.0
-    if checkpoint.exists():
-        saved = torch.load(checkpoint, map_location=args.device)
-        net.load_state_dict(saved["net"])
-        mean.load_state_dict(saved["mean"])
-        optimizer.load_state_dict(saved["optimizer"])
-        first, before = saved["step"], saved["minutes"]
-    traced = tuple(args.traced)
-    seed = args.seed * 1_000_000 + first
-    stream = Batches(args.data, traced, args.traced_share, args.junctions, seed)
-    batches = iter(stream.loader(args.workers))
+    weights = sum(p.numel() for p in net.parameters())
+    lineage.note_run(args.out, args, torch=torch.__version__, weights=weights)
+    schedule = Schedule(
+        args.steps, args.minutes, rate=args.rate, least=0.02, every=args.every, memory=200
+    )
+    training = Training(args.out, net, schedule, config=net.config)
+    seed = args.seed * 1_000_000 + training.step
+    stream = Batches(args.data, tuple(args.traced), args.traced_share, args.junctions, seed)
     held_out = validation(Library.load(args.data, True), args.traced_held_out, args.pages)
     loss_of = getattr(likelihood, args.loss)
-    started, running, step, done = time.monotonic(), [], first, 0.0
-    while done < 1:
-        minutes = before + (time.monotonic() - started) / 60
-        done = max((step + 1) / args.steps, minutes / args.minutes)
-        for group in optimizer.param_groups:
-            group["lr"] = args.rate * learning_rate(step, done)
-        batch = next(batches)
-        scores = run(net, batch, args.device)
+
+    def loss(net: RoutingNet, batch: Batch) -> dict[str, torch.Tensor]:
         mask, truth, asked = (
             torch.from_numpy(a).to(args.device) for a in (batch.mask, batch.truth, batch.asked)
         )
-        loss = (loss_of(scores, mask, truth) * asked).sum() / asked.sum().clamp(min=1)
-        optimizer.zero_grad()
-        loss.backward()
-        torch.nn.utils.clip_grad_norm_(net.parameters(), 1.0)
-        optimizer.step()
-        step += 1
-        # The mean of the last few hundred steps is better than any one of them.
-        keep = min(0.995, step / (step + 10))
-        with torch.no_grad():
-            for slow, fast in zip(mean.parameters(), net.parameters(), strict=True):
-                slow.lerp_(fast, 1 - keep)
-        running.append(float(loss.detach()))
-        if done >= 1 or step % args.every == 0:
-            record = {"step": step, "minutes": round(minutes, 2), "loss": float(np.mean(running))}
-            for name, part in held_out.items():
-                record[name] = evaluate(mean, part, args.device).summary()
-            running = []
-            with (args.out / "log.jsonl").open("a") as log:
-                log.write(json.dumps(record) + "\n")
-            state = {"net": net.state_dict(), "mean": mean.state_dict(), "config": net.config}
-            state |= {"optimizer": optimizer.state_dict(), "step": step, "minutes": minutes}
-            torch.save(state, checkpoint)
+        lost = loss_of(run(net, batch, args.device), mask, truth) * asked
+        return {"total": lost.sum() / asked.sum().clamp(min=1)}
+
+    def judged(mean: RoutingNet) -> dict[str, dict[str, float]]:
+        return {
+            name: evaluate(mean, part, args.device).summary() for name, part in held_out.items()
+        }
+
+    training.run(stream.loader(args.workers), loss, judged)
 
 
 def _first(args: argparse.Namespace) -> RoutingNet:
@@ -120,11 +94,6 @@ def _first(args: argparse.Namespace) -> RoutingNet:
         given = widened(given)
     wanted.load_state_dict(given.state_dict())
     return wanted
-
-
-def learning_rate(step: int, done: float) -> float:
-    """Share of the full rate: a short warm-up, then a cosine over the whole training."""
-    return min(1.0, (step + 1) / 200) * (0.02 + 0.49 * (1 + math.cos(math.pi * min(done, 1.0))))
 
 
 def run(net: RoutingNet, batch: Batch, device: str) -> torch.Tensor:

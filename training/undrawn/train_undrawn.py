@@ -1,34 +1,34 @@
 """Learn which branches of a traced graph nobody drew, for `engine/graph/removal/undrawn.py`.
 
-`python -m training.undrawn.train_undrawn --data DIR --run RUN --pages 600` draws pages of true
-strokes as hands draw and scanners see them, traces them with the centerline network, and keeps the
-features of every branch beside whether a true stroke made it (RUN/train.npz,
-RUN/held_out.npz; started again,
-it goes on). Then it trains a small network and writes engine/weights/undrawn.npz. The figures go to
-RUN/log.json.
+`python -m training run undrawn --data DIR --run RUN --pages 600` draws pages of true strokes as
+hands draw and scanners see them, traces them with the centerline network, and keeps the features of
+every branch beside whether a true stroke made it (RUN/train.npz, RUN/held_out.npz; started again,
+it goes on). Then it trains a small network, see `training/loop.py`, and writes
+engine/weights/undrawn.npz. The figures are in RUN/log.jsonl.
 """
 
 from __future__ import annotations
 
 import argparse
 import json
-from concurrent.futures import ProcessPoolExecutor
-from multiprocessing import get_context
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import cv2
 import numpy as np
 import torch
-from involute.engine.graph import all_lines
+from involute.engine.graph import Evidence, run_passes
 from involute.engine.graph.removal.undrawn import FEATURES, WEIGHTS, features
 from involute.engine.graph.topology import lengths
 from involute.engine.settings import Settings
 from involute.engine.values import PlanarGraph
+from involute.synthesis.composed_pages import Library, loosened
 from scipy.spatial import cKDTree
-from torch import nn
+from torch import Tensor, nn
 
-from ...synthesis.composed_pages import Library, loosened
-from .. import digests
+from .. import digests, lineage
+from ..loop import Schedule, Training
+from ..page_bank import PageBank
 from ..routing.labels import labelled, unowned
 from ..routing.traced import MOST_FALSE, look_ink, look_scan, on_canvas
 
@@ -40,7 +40,8 @@ _APART, _ON = 9.0, 3.0  # px between a dot and what else is drawn; and between i
 _PIECE = 50  # pages between two writings of the file
 
 
-def main() -> None:
+def main(argv: Sequence[str] | None = None) -> None:
+    """The command line."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--data", type=Path, required=True, help="folder of SOURCE.npz drawings")
     parser.add_argument("--run", type=Path, required=True)
@@ -49,36 +50,32 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--steps", type=int, default=6000)
     parser.add_argument("--out", type=Path, default=WEIGHTS)
-    args = parser.parse_args()
-    args.run.mkdir(parents=True, exist_ok=True)
+    args = parser.parse_args(argv)
+    lineage.note_run(args.run, args, torch=torch.__version__)
     parts = {}
     for name, pages in (("train", args.pages), ("held_out", args.pages // 6)):
         work = args.data, name == "held_out", args.seed
         parts[name] = gathered(args.run / f"{name}.npz", pages, args.jobs, work)
-    net, figures = train(*parts["train"], *parts["held_out"], args.steps, args.seed)
-    (args.run / "log.json").write_text(json.dumps(figures, indent=1), "utf-8")
+    net, figures = train(*parts["train"], *parts["held_out"], args.steps, args.seed, args.run)
     print(json.dumps(figures, indent=1))
     np.savez(args.out, **net)
-    digests.note(args.out)
+    digests.note(args.out, args.run)
 
 
 def gathered(path: Path, pages: int, jobs: int, work: tuple) -> tuple[Array, Array]:
     """Features (N, F) and labels (N,) of the branches of so many pages, from a file or made."""
-    done, rows, labels = 0, [], []
-    if path.exists():
-        saved = np.load(path)
-        done, rows, labels = int(saved["pages"]), [saved["rows"]], [saved["labels"]]
-    with ProcessPoolExecutor(jobs, get_context("spawn"), _prepare, work) as pool:
-        while done < pages:
-            numbers = range(done, min(done + _PIECE, pages))
-            for found in pool.map(_branches, numbers):
-                rows.append(found[0])
-                labels.append(found[1])
-            done = numbers.stop
-            rows, labels = [np.concatenate(rows)], [np.concatenate(labels)]
-            np.savez_compressed(path, rows=rows[0], labels=labels[0], pages=done)
-            print(f"{path.name}: {done} pages, {len(labels[0])} branches", flush=True)
-    return rows[0], labels[0]
+    found = PageBank(path, _read, _save, _PIECE).filled(pages, _branches, jobs, _prepare, work)
+    return np.concatenate([rows for rows, _ in found]), np.concatenate([own for _, own in found])
+
+
+def _read(path: Path) -> tuple[list[tuple[Array, Array]], int]:
+    with np.load(path) as saved:
+        return [(saved["rows"], saved["labels"])], int(saved["pages"])
+
+
+def _save(path: Path, found: list[tuple[Array, Array]], pages: int) -> None:
+    rows, labels = (np.concatenate(part) for part in zip(*found, strict=True))
+    np.savez_compressed(path, rows=rows, labels=labels, pages=pages)
 
 
 def _prepare(data: Path, held_out: bool, seed: int) -> None:
@@ -96,13 +93,14 @@ def _branches(number: int) -> tuple[Array, Array]:
     look = look_scan if rng.random() < _SCANNED else look_ink
     if strokes:
         maps, scan = look(rng, strokes + dots, settings)
-        graph, value = all_lines(maps, scan.pen_width, settings)
+        evidence = Evidence.of(scan, maps)
+        graph = run_passes(evidence, settings, until="undrawn")
         if graph.branch_count:
             page = labelled(graph, [line / scan.scale for line in strokes + dots])
             false = page.stroke[graph.offsets[:-1]] < 0
             false &= ~_on_dots(graph, [dot / scan.scale for dot in dots])
             if unowned(page) < MOST_FALSE:
-                return features(graph, value, maps, scan.pen_width).astype(np.float32), false
+                return features(graph, evidence).astype(np.float32), false
     return np.zeros((0, FEATURES), np.float32), np.zeros(0, bool)
 
 
@@ -133,48 +131,64 @@ def _on_dots(graph: PlanarGraph, dots: list[Array]) -> Array:
 
 
 def train(
-    rows: Array, labels: Array, held_rows: Array, held_labels: Array, steps: int, seed: int
+    rows: Array,
+    labels: Array,
+    held_rows: Array,
+    held_labels: Array,
+    steps: int,
+    seed: int,
+    folder: Path,
 ) -> tuple[dict[str, Array], dict[str, object]]:
     """Weights as `engine/graph/removal/undrawn.py` reads them, and figures on held-out branches."""
     torch.manual_seed(seed)
     mean, spread = rows.mean(0), rows.std(0) + 1e-3
-    x, y = (torch.from_numpy(a) for a in ((rows - mean) / spread, labels.astype(np.float32)))
-    hx, hy = torch.from_numpy((held_rows - mean) / spread), held_labels
     net = nn.Sequential(
         nn.Linear(rows.shape[1], 48), nn.ReLU(), nn.Dropout(0.1),
         nn.Linear(48, 24), nn.ReLU(), nn.Linear(24, 1),
     )  # fmt: skip
-    optimizer = torch.optim.AdamW(net.parameters(), 3e-3, weight_decay=0.02)
-    schedule = torch.optim.lr_scheduler.CosineAnnealingLR(optimizer, steps)
-    for _ in range(steps):
-        pick = torch.randint(len(x), (1024,))
-        # A little noise, so that it does not learn single branches by heart.
-        seen = x[pick] + 0.1 * torch.randn(len(pick), x.shape[1])
-        loss = nn.functional.binary_cross_entropy_with_logits(net(seen)[:, 0], y[pick])
-        optimizer.zero_grad()
-        loss.backward()
-        optimizer.step()
-        schedule.step()
-    net.eval()
-    with torch.no_grad():
-        stated = torch.sigmoid(net(hx))[:, 0].numpy()
-    figures: dict[str, object] = {
+    schedule = Schedule(steps, rate=3e-3, least=0.0, every=steps)
+    training = Training(folder, net, schedule, weight_decay=0.02)
+    held = torch.from_numpy((held_rows - mean) / spread)
+    counts: dict[str, object] = {
         "branches": len(rows), "undrawn": int(labels.sum()),
-        "held-out branches": len(hy), "held-out undrawn": int(hy.sum()),
+        "held-out branches": len(held), "held-out undrawn": int(held_labels.sum()),
     }  # fmt: skip
-    for limit in (0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9):
-        goes = stated > limit
-        right = int((goes & hy).sum())
-        figures[f"above {limit}"] = {
-            "found": round(right / max(1, int(hy.sum())), 3),
-            "right": round(right / max(1, int(goes.sum())), 3),
-            "drawn lost": round(float((goes & ~hy).sum() / max(1, (~hy).sum())), 5),
-        }
+    x, y = (torch.from_numpy(a) for a in ((rows - mean) / spread, labels.astype(np.float32)))
+    training.run(_batches(x, y), _loss, lambda net: counts | _figures(net, held, held_labels))
     weights = {"mean": mean, "spread": spread}
-    for number, layer in enumerate(m for m in net if isinstance(m, nn.Linear)):
+    for number, layer in enumerate(m for m in training.mean if isinstance(m, nn.Linear)):
         weights[f"weight{number}"] = layer.weight.detach().numpy().T.copy()
         weights[f"bias{number}"] = layer.bias.detach().numpy()
+    figures = counts | _figures(training.mean, held, held_labels)
     return {name: np.float32(value) for name, value in weights.items()}, figures
+
+
+def _batches(x: Tensor, y: Tensor) -> Iterator[tuple[Tensor, Tensor]]:
+    while True:
+        pick = torch.randint(len(x), (1024,))
+        # A little noise, so that it does not learn single branches by heart.
+        yield x[pick] + 0.1 * torch.randn(len(pick), x.shape[1]), y[pick]
+
+
+def _loss(net: nn.Module, batch: tuple[Tensor, Tensor]) -> dict[str, Tensor]:
+    seen, truth = batch
+    return {"total": nn.functional.binary_cross_entropy_with_logits(net(seen)[:, 0], truth)}
+
+
+@torch.no_grad()
+def _figures(net: nn.Module, held: Tensor, undrawn: Array) -> dict[str, object]:
+    """What each limit would take away on held-out branches, and how much of that rightly."""
+    stated = torch.sigmoid(net(held))[:, 0].numpy()
+    figures: dict[str, object] = {}
+    for limit in (0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9):
+        goes = stated > limit
+        right = int((goes & undrawn).sum())
+        figures[f"above {limit}"] = {
+            "found": round(right / max(1, int(undrawn.sum())), 3),
+            "right": round(right / max(1, int(goes.sum())), 3),
+            "drawn lost": round(float((goes & ~undrawn).sum() / max(1, (~undrawn).sum())), 5),
+        }
+    return figures
 
 
 if __name__ == "__main__":

@@ -51,6 +51,7 @@ TEXTS = {
     "Finding the junctions": "Kreuzungen werden gesucht",
     "Routing the junctions": "Kreuzungen werden verbunden",
     "Drawing the strokes": "Striche werden gezeichnet",
+    "Comparing with the ink": "Vergleich mit der Tinte",
     "{done} of {count} frames": "{done} von {count} Bildern",
     "Result": "Ergebnis",
     "{strokes:,} strokes, {solids:,} solids, {seconds:.1f} s": (
@@ -87,7 +88,6 @@ TEXTS = {
     "How Many Points": "Wie viele Punkte",
     "Lines": "Linien",
     "Which side of the picture is ink": "Welche Seite des Bildes Tusche ist",
-    "Automatic": "Automatisch",
     "Find out from the picture": "Am Bild herausfinden",
     "Dark on Light": "Dunkel auf Hell",
     "Ink or pencil on paper": "Tusche oder Bleistift auf Papier",
@@ -136,6 +136,37 @@ TEXTS = {
     "Purple": "Violett",
     "Pink": "Rosa",
     "Gray": "Grau",
+    "Solid Width": "Flächenbreite",
+    "Leave Out Screentone": "Rasterfolie weglassen",
+    "Don't trace areas of evenly set dots, such as the tones of a comic": (
+        "Flächen aus gleichmäßig gesetzten Punkten nicht nachziehen, etwa die Töne eines Comics"
+    ),
+    "Leave Out Surroundings": "Umgebung weglassen",
+    "Don't trace what lies beyond the sheet in a photograph: cloth, a desk, a finger": (
+        "Was auf einem Foto neben dem Blatt liegt, nicht nachziehen: Stoff, Tisch, ein Finger"
+    ),
+    "Lines wider than this, in pixels of the picture, are solid areas; 0 finds out from the pen": (
+        "Linien, die breiter sind (in Bildpunkten), sind Flächen; 0 ermittelt es aus der Feder"
+    ),
+    "Keep Dots": "Punkte behalten",
+    "Keep dots of full ink about as wide as the pen, which are no specks": (
+        "Satte Punkte behalten, die etwa so breit wie die Feder und damit keine Flecken sind"
+    ),
+    "Opacity": "Deckkraft",
+    "How opaque the strokes are": "Wie stark die Striche decken",
+    "Solid": "Deckend",
+    "Solid for ink, as drawn for pencil": "Deckend bei Tinte, wie gezeichnet bei Bleistift",
+    "Every stroke is opaque": "Jeder Strich deckt",
+    "As Drawn": "Wie gezeichnet",
+    "As strong as the line on the paper": "So kräftig wie die Linie auf dem Papier",
+    "Width Scale": "Breitenfaktor",
+    "Make the strokes this many times as wide as the lines on the paper": (
+        "Die Striche so viel mal so breit machen wie die Linien auf dem Papier"
+    ),
+    "Even Width": "Gleichmäßige Breite",
+    "Give each stroke one width all along, that of its line on average": (
+        "Jedem Strich eine einzige Breite geben, die mittlere seiner Linie"
+    ),
     "Leave Out Marks": "Marken weglassen",
     "Don't trace scan borders, punched holes and registration marks": (
         "Scanränder, Lochungen und Passmarken nicht nachziehen"
@@ -151,6 +182,12 @@ TEXTS = {
     "Smoothing": "Glättung",
     "0 keeps every wobble of the hand, 1 is very smooth": (
         "0 behält jedes Zittern der Hand, 1 ist sehr glatt"
+    ),
+    "Pen Lifts": "Absetzen",
+    "Where strokes end though only two lines meet: 0 where it looks as if the pen was lifted, "
+    "-1 nowhere, 1 wherever it may have been": (
+        "Wo Striche enden, obwohl sich nur zwei Linien treffen: 0 wo es aussieht, als sei der "
+        "Stift abgesetzt worden, -1 nirgends, 1 überall, wo es sein kann"
     ),
     "Junctions": "Kreuzungen",
     "What decides which lines continue through a junction": (
@@ -204,7 +241,19 @@ TEXTS = {
         "Wo eine neue Zeichnung steht; an einem Bild-Empty liegt sie immer auf dem Bild"
     ),
     "Front View": "Vorderansicht",
-    "Upright at the world's origin": "Aufrecht am Ursprung der Welt",
+    "Automatic": "Automatisch",
+    "Fit to the camera while you look through it, else front view": (
+        "In die Kamera einpassen, solange man durch sie blickt, sonst Vorderansicht"
+    ),
+    "Upright at the world's origin, before what stands there": (
+        "Aufrecht am Ursprung der Welt, vor dem, was dort steht"
+    ),
+    "Scan Behind": "Scan dahinter",
+    "Show the picture behind the strokes that were traced from it": (
+        "Das Bild hinter den Strichen zeigen, die daraus nachgezogen wurden"
+    ),
+    "Where It Goes": "Wohin es kommt",
+    "Scan": "Scan",
     "Fit to Camera": "In die Kamera einpassen",
     "Fill the view of the scene's camera, facing it": (
         "Den Blick der Szenenkamera füllen, ihr zugewandt"
@@ -329,7 +378,26 @@ TEXTS = {
     "Bring the junction to the middle of the view": (
         "Die Kreuzung in die Mitte der Ansicht bringen"
     ),
-    "Accept All Above 95 %": "Alle über 95 % annehmen",
+    "Above": "Über",
+    "Accept {count}": "{count} annehmen",
+    "Stroke Colors": "Strichfarben",
+    "Strokes": "Striche",
+    "Show every stroke in a color of its own, with its ends marked": (
+        "Jeden Strich in eigener Farbe zeigen, die Enden markiert"
+    ),
+    "Stroke Width": "Strichbreite",
+    "Width of a stroke that is shown in a color of its own, in pixels": (
+        "Breite eines Strichs, der in eigener Farbe gezeigt wird, in Pixeln"
+    ),
+    "One of the colors that tell strokes apart": (
+        "Eine der Farben, die Striche voneinander unterscheiden"
+    ),
+    "Stroke Color 1": "Strichfarbe 1",
+    "Stroke Color 2": "Strichfarbe 2",
+    "Stroke Color 3": "Strichfarbe 3",
+    "Stroke Color 4": "Strichfarbe 4",
+    "Stroke Color 5": "Strichfarbe 5",
+    "Stroke Color 6": "Strichfarbe 6",
     "Accept Certain Junctions": "Sichere Kreuzungen annehmen",
     "Lock every junction that is at least this certain": (
         "Jede Kreuzung sperren, die mindestens so sicher ist"
@@ -420,7 +488,7 @@ TEXTS = {
     ),
     "Click a junction to choose among its alternatives\n"
     "Drag from one line to another to join them\n"
-    "Alt-click a line to end it at its junction": (
+    "Ctrl-click or Alt-click a line to end it at its junction": (
         "Eine Kreuzung anklicken, um unter ihren Möglichkeiten zu wählen\n"
         "Von einer Linie zu einer anderen ziehen, um sie zu verbinden\n"
         "Eine Linie mit Alt anklicken, um sie an ihrer Kreuzung enden zu lassen"
@@ -481,5 +549,68 @@ TEXTS = {
     "Junction router": "Verbinden der Kreuzungen",
     "not installed: the method without learning is used": (
         "nicht installiert: das Verfahren ohne Lernen wird benutzt"
+    ),
+    "Choose one picture file or several.": "Eine oder mehrere Bilddateien auswählen.",
+    "Review Junctions": "Kreuzungen durchgehen",
+    "Decide the doubtful junctions one after the other, those first where most depends on it": (
+        "Die zweifelhaften Kreuzungen nacheinander entscheiden; zuerst die, an denen am meisten "
+        "hängt"
+    ),
+    "No junction is doubtful any more.": "Keine Kreuzung ist mehr zweifelhaft.",
+    "A review needs a 3D viewport.": "Das Durchgehen braucht einen 3D-Viewport.",
+    "{number} of {all}, {long} long strokes left: digit or click decides, Enter accepts, "
+    "Space skips, Backspace goes back, Esc leaves": (
+        "{number} von {all}, noch {long} lange Striche: Ziffer oder Klick entscheidet, Enter nimmt "
+        "an, Leertaste überspringt, Rücktaste geht zurück, Esc beendet"
+    ),
+    "Cost": "Kosten",
+    "Doubt times the length of stroke that another answer changes": (
+        "Zweifel mal Länge der Striche, die eine andere Antwort ändert"
+    ),
+    # presets
+    "Use Preset": "Vorgabe verwenden",
+    "Set all trace settings to what suits a kind of drawing": (
+        "Alle Einstellungen so wählen, wie sie zu einer Art von Zeichnung passen"
+    ),
+    "Preset": "Vorgabe",
+    "What kind of drawing it is": "Was für eine Zeichnung es ist",
+    "Ink": "Tusche",
+    "Pen drawings on paper; the defaults": (
+        "Federzeichnungen auf Papier; die Standardeinstellungen"
+    ),
+    "Pencil": "Bleistift",
+    "Soft lines of changing darkness, crumbs left out; no solid blacks": (
+        "Weiche Linien wechselnder Schwärze, Krümel weggelassen; keine Schwarzflächen"
+    ),
+    "Brush and Marker": "Pinsel und Marker",
+    "Broad, swelling lines in few points, thick places not taken for solids": (
+        "Breite, schwellende Linien mit wenigen Punkten; dicke Stellen gelten nicht als Flächen"
+    ),
+    "Blueprint": "Blaupause",
+    "Light lines on dark paper, all in one ink, corners kept sharp": (
+        "Helle Linien auf dunklem Papier, alle in einer Farbe, mit scharfen Ecken"
+    ),
+    "Binarised Animation Lines": "Binarisierte Animationslinien",
+    "Hard black and colored lines without grey, closed regions filled": (
+        "Harte schwarze und farbige Linien ohne Grau, geschlossene Gebiete gefüllt"
+    ),
+    "Comic Page": "Comicseite",
+    "Ink with solid blacks, all in one ink, specks of the print left out": (
+        "Tusche mit Schwarzflächen, alles in einer Farbe, Druckpunkte weggelassen"
+    ),
+    "Next Junction": "Nächste Kreuzung",
+    "Previous Junction": "Vorherige Kreuzung",
+    # what can't be done
+    "This drawing has no junctions any more: what was stored of them is damaged. "
+    "Its strokes stay as they are.": (
+        "Diese Zeichnung hat keine Kreuzungen mehr: was von ihnen gespeichert war, ist beschädigt. "
+        "Ihre Striche bleiben, wie sie sind."
+    ),
+    "The strokes at this junction were deleted, or joined by hand; nothing was changed.": (
+        "Die Striche an dieser Kreuzung wurden gelöscht oder von Hand verbunden; nichts wurde "
+        "geändert."
+    ),
+    "The layer {name!r} is locked; unlock it to reroute.": (
+        "Die Ebene {name!r} ist gesperrt; zum Neuverbinden entsperren."
     ),
 }

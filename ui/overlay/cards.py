@@ -66,9 +66,10 @@ def draw(context: bpy.types.Context, shown: Shown) -> None:
     gpu.state.blend_set("ALPHA")
     _draw_letters(context, shown, state)
     if shown.view.choosing:
-        row = cards_of(context, shown)
-        cards = kept(("cards", *state, shown.view.preview), lambda: _make(row, shown, scale))
-        _draw_cards(cards, row[0])
+        placed, scale = cards_of(context, shown)
+        rows = tuple((c.x - placed[0].x, c.y - placed[0].y) for c in placed)
+        key = ("cards", *state, shown.view.preview, rows, scale)
+        _draw_cards(kept(key, lambda: _make(placed, shown, scale)), placed[0])
     gpu.state.blend_set("NONE")
 
 

@@ -6,7 +6,6 @@ nothing and are made anew only when the routing or the colours change.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import bpy
@@ -14,13 +13,13 @@ import gpu
 import numpy as np
 from gpu_extras.batch import batch_for_shader
 
-from ...engine import InvoluteError
-from ...operators.view.view_state import Shown, shown_in, view_of
+from ...operators.view.view_state import Shown, traced_in, view_of
 from ..panels.preferences import preferences_of
 from . import cards
 from .colors import Color
 from .drawn_batches import forget, kept
 from .overlay_geometry import rings, routes
+from .stroke_overlay import draw_strokes
 
 if TYPE_CHECKING:
     from ...engine import Drawing
@@ -36,9 +35,11 @@ def draw_rings_and_routes() -> None:
     _seen.clear()
     if not _is_on(context):
         return
-    for shown in _traced(context):
+    for shown in traced_in(context):
         with gpu.matrix.push_pop():
             gpu.matrix.multiply_matrix(shown.object.matrix_world)
+            if shown.view.stroke_colors:
+                draw_strokes(context, shown)
             _draw_rings(context, shown)
             if shown.object == context.active_object and shown.junction is not None:
                 _draw_routes(context, shown)
@@ -90,17 +91,6 @@ def _is_on(context: bpy.types.Context) -> bool:
     )
 
 
-def _traced(context: bpy.types.Context) -> Iterator[Shown]:
-    for obj in context.visible_objects:
-        if obj.type == "GREASEPENCIL":
-            try:
-                shown = shown_in(context, obj)
-            except InvoluteError:  # a newer version's data: nothing to show
-                continue
-            if shown is not None and len(shown.table):
-                yield shown
-
-
 def _draw_rings(context: bpy.types.Context, shown: Shown) -> None:
     preferences = preferences_of(context)
     scale = tuple(
@@ -123,7 +113,7 @@ def _ring_batch(
     shader: gpu.types.GPUShader, shown: Shown, scale: tuple[Color, Color, Color], size: float
 ) -> gpu.types.GPUBatch:
     shape = rings(shown.table, size * pen_width(shown.trace.drawing), scale)
-    places = shown.trace.pixel_map.to_object(shape.points)
+    places = shown.pixel_map.to_object(shape.points)
     return batch_for_shader(
         shader, "LINES", {"pos": places, "color": shape.colors}, indices=shape.edges
     )
@@ -150,7 +140,7 @@ def _route_batches(
         (
             (*route.color, 0.95 if route.joined else 0.6),
             batch_for_shader(
-                shader, "LINE_STRIP", {"pos": shown.trace.pixel_map.to_object(route.points)}
+                shader, "LINE_STRIP", {"pos": shown.pixel_map.to_object(route.points)}
             ),
         )
         for route in routes(shown.trace.drawing, shown.junction, pairs)
@@ -159,7 +149,7 @@ def _route_batches(
 
 def _state(shown: Shown) -> tuple:
     """What the batches of a drawing depend on: its content and where it lies in its object."""
-    return shown.trace.stamp, *shown.trace.pixel_map.as_list()
+    return shown.trace.stamp, hash(shown.halves.tobytes()), *shown.pixel_map.as_list()
 
 
 def _set_up(context: bpy.types.Context, shader: gpu.types.GPUShader, width: float) -> None:

@@ -42,20 +42,22 @@ class Route:
 
 
 def rings(table: JunctionTable, radius: float, scale: tuple[Color, Color, Color]) -> Rings:
-    """A ring around each junction: the more doubtful, the larger and the more yellow.
+    """A ring around each junction with strokes: the more doubtful, the larger and the more yellow.
 
     Args:
         radius: of a certain junction's ring, px.
         scale: colours of the sure, the doubtful and the locked.
     """
+    seen = np.flatnonzero(np.isfinite(table.positions[:, 0]))
     turn = np.arange(_SIDES) * (2 * np.pi / _SIDES)
     circle = np.stack([np.cos(turn), np.sin(turn)], axis=1)
-    radii = radius * (1.0 + np.where(table.locked, 0.0, np.minimum(2 * table.doubt, 1.0)))
-    points = table.positions[:, None] + radii[:, None, None] * circle
-    colors = doubt_colors(table.doubt, table.locked, *scale)
+    doubt, locked = table.doubt[seen], table.locked[seen]
+    radii = radius * (1.0 + np.where(locked, 0.0, np.minimum(2 * doubt, 1.0)))
+    points = table.positions[seen, None] + radii[:, None, None] * circle
+    colors = doubt_colors(doubt, locked, *scale)
     corner = np.arange(_SIDES)
     one = np.stack([corner, np.roll(corner, -1)], axis=1)
-    edges = (np.arange(len(table))[:, None, None] * _SIDES + one).reshape(-1, 2)
+    edges = (np.arange(len(seen))[:, None, None] * _SIDES + one).reshape(-1, 2)
     return Rings(
         points.reshape(-1, 2).astype(np.float32),
         np.repeat(colors, _SIDES, axis=0),

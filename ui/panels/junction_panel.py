@@ -17,6 +17,7 @@ from ...operators.junctions.join import INVOLUTE_OT_join
 from ...operators.junctions.lock import INVOLUTE_OT_lock
 from ...operators.junctions.preview import INVOLUTE_OT_preview
 from ...operators.junctions.reroute import INVOLUTE_OT_reroute
+from ...operators.junctions.review import INVOLUTE_OT_review
 from ...operators.junctions.separate import INVOLUTE_OT_separate
 from ...operators.language import label
 from ...operators.view.junction_words import angle, arrow, letters, percent, sentence
@@ -47,7 +48,9 @@ class INVOLUTE_PT_junctions(_Sidebar, bpy.types.Panel):
     def draw_header_preset(self, context: bpy.types.Context) -> None:
         """The switch of the overlay."""
         view = context.window_manager.involute_view
-        self.layout.prop(view, "show_overlay", text="", icon="OVERLAY", emboss=False)
+        row = self.layout.row(align=True)
+        row.prop(view, "stroke_colors", text="", icon="COLOR", emboss=False)
+        row.prop(view, "show_overlay", text="", icon="OVERLAY", emboss=False)
 
     def draw(self, context: bpy.types.Context) -> None:
         """Filters, list and buttons."""
@@ -59,10 +62,15 @@ class INVOLUTE_PT_junctions(_Sidebar, bpy.types.Panel):
         step = INVOLUTE_OT_step_junction.bl_idname
         row.operator(step, text="Previous", icon="TRIA_LEFT").direction = "PREVIOUS"
         row.operator(step, text="Next", icon="TRIA_RIGHT").direction = "NEXT"
+        self.layout.operator(INVOLUTE_OT_review.bl_idname, icon="PLAY")
         column = self.layout.column(align=True)
-        column.operator(
-            INVOLUTE_OT_accept.bl_idname, text="Accept All Above 95 %", icon="CHECKMARK"
-        )
+        certainty = shown.view.certainty
+        row = column.row(align=True)
+        row.prop(shown.view, "certainty", text="Above", slider=True)
+        sure = shown.table.at_least(certainty / 100)
+        said = label("Accept {count}", count=int(sure.sum()))
+        button = row.operator(INVOLUTE_OT_accept.bl_idname, text=said, translate=False)
+        button.probability = certainty
         column.operator(INVOLUTE_OT_ask_again.bl_idname, icon="FILE_REFRESH")
 
 

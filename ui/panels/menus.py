@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import bpy
 
+from ...engine.formats.picture_kinds import SUFFIXES
 from ...operators.sequences.playing import plays_frames
 from ...operators.sequences.trace_frames import (
     INVOLUTE_OT_import_sequence,
     INVOLUTE_OT_trace_sequence,
 )
 from ...operators.tracing.import_scan import INVOLUTE_OT_import_scan
-from ...operators.tracing.sources import SUFFIXES
 from ...operators.tracing.trace import INVOLUTE_OT_trace, is_image_empty
 
 

@@ -12,6 +12,9 @@ from ..overlay import colors
 
 _PACKAGE = __package__.removesuffix(".ui.panels")
 
+_ONE_OF = "One of the colors that tell strokes apart"
+_PALETTE = tuple(f"stroke_color_{number + 1}" for number in range(len(colors.STROKES)))
+
 
 def _color(name: str, description: str, default: colors.Color) -> object:
     return FloatVectorProperty(
@@ -46,13 +49,37 @@ class INVOLUTE_AP_preferences(bpy.types.AddonPreferences):
         max=20.0,
     )
 
+    stroke_width: FloatProperty(
+        name="Stroke Width",
+        description="Width of a stroke that is shown in a color of its own, in pixels",
+        default=2.5,
+        min=0.5,
+        max=20.0,
+    )
+    stroke_color_1: _color("Stroke Color 1", _ONE_OF, colors.STROKES[0])
+    stroke_color_2: _color("Stroke Color 2", _ONE_OF, colors.STROKES[1])
+    stroke_color_3: _color("Stroke Color 3", _ONE_OF, colors.STROKES[2])
+    stroke_color_4: _color("Stroke Color 4", _ONE_OF, colors.STROKES[3])
+    stroke_color_5: _color("Stroke Color 5", _ONE_OF, colors.STROKES[4])
+    stroke_color_6: _color("Stroke Color 6", _ONE_OF, colors.STROKES[5])
+
+    @property
+    def stroke_palette(self) -> list[colors.Color]:
+        """The colours of strokes, in order."""
+        return [tuple(getattr(self, name)) for name in _PALETTE]
+
     def draw(self, context: bpy.types.Context) -> None:
         """Overlay, default settings, keys, networks."""
         layout = self.layout
         layout.use_property_split = True
         layout.use_property_decorate = False
-        column = layout.column(heading="Junction Overlay")
+        layout.label(text="Junction Overlay")
+        column = layout.column()
         for name in ("color_sure", "color_doubtful", "color_locked", "ring_size"):
+            column.prop(self, name)
+        layout.label(text="Stroke Colors")
+        column = layout.column()
+        for name in ("stroke_width", *_PALETTE):
             column.prop(self, name)
         header, body = layout.panel("involute_defaults", default_closed=True)
         header.label(text="Default Trace Settings")
@@ -69,7 +96,8 @@ class INVOLUTE_AP_preferences(bpy.types.AddonPreferences):
         box = self.layout.box()
         box.label(text="Keys in the 3D Viewport")
         configuration = context.window_manager.keyconfigs.user
-        for keymap, item in items(configuration):
+        for keymap, item, name in items(configuration):
+            box.label(text=name)
             draw_kmi(["ADDON", "USER", "DEFAULT"], configuration, keymap, item, box, 0)
 
     def _draw_networks(self) -> None:

@@ -7,6 +7,7 @@ from bl_operators.presets import AddPresetBase
 from bl_ui.utils import PresetPanel
 
 from ...operators.tracing.trace_settings import NAMES
+from ...operators.tracing.use_preset import PRESETS, INVOLUTE_OT_use_preset
 
 
 class INVOLUTE_OT_add_preset(AddPresetBase, bpy.types.Operator):
@@ -27,6 +28,15 @@ class INVOLUTE_PT_presets(PresetPanel, bpy.types.Panel):
     preset_subdir = INVOLUTE_OT_add_preset.preset_subdir
     preset_operator = "script.execute_preset"
     preset_add_operator = INVOLUTE_OT_add_preset.bl_idname
+
+    def draw(self, context: bpy.types.Context) -> None:
+        """The shipped ones, then the user's; Blender calls a missing folder a missing path."""
+        column = self.layout.column(align=True)
+        for key, (name, _, _) in PRESETS.items():
+            column.operator(INVOLUTE_OT_use_preset.bl_idname, text=name).preset = key
+        self.layout.separator()
+        bpy.utils.user_resource("SCRIPTS", path=f"presets/{self.preset_subdir}", create=True)
+        super().draw(context)
 
 
 def draw_preset_menu(layout: bpy.types.UILayout) -> None:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from textwrap import wrap
+
 import bpy
 
 from ...engine import InvoluteError
 from ...operators import job as jobs
-from ...operators.language import label
+from ...operators.language import label, message
 from ...operators.sequences.playing import plays_frames
 from ...operators.sequences.trace_frames import (
     INVOLUTE_OT_import_sequence,
@@ -14,12 +16,15 @@ from ...operators.sequences.trace_frames import (
 )
 from ...operators.tracing.background import INVOLUTE_OT_cancel, stage_of
 from ...operators.tracing.import_scan import INVOLUTE_OT_import_scan
-from ...operators.tracing.settings_layout import draw_settings
+from ...operators.tracing.scan_behind import scan_of
+from ...operators.tracing.settings_layout import draw_placing, draw_settings
 from ...operators.tracing.trace import INVOLUTE_OT_trace, is_image_empty
 from ...operators.tracing.trace_settings import as_values, scene_settings
 from ...operators.tracing.use_defaults import INVOLUTE_OT_use_defaults
 from ...operators.view.view_state import Shown, shown_in
 from .presets import draw_preset_menu
+
+_LINE = 34  # letters in a line of the sidebar
 
 
 class INVOLUTE_PT_trace(bpy.types.Panel):
@@ -81,6 +86,10 @@ class INVOLUTE_PT_trace(bpy.types.Panel):
         layout.use_property_split = True
         layout.use_property_decorate = False
         draw_settings(layout, settings)
+        header, body = layout.panel("involute_placing", default_closed=True)
+        header.label(text="Where It Goes")
+        if body is not None:
+            draw_placing(body, settings)
 
 
 class INVOLUTE_PT_summary(bpy.types.Panel):
@@ -93,15 +102,19 @@ class INVOLUTE_PT_summary(bpy.types.Panel):
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
-        """Is there a traced drawing?"""
+        """Is there a traced drawing, or one that was?"""
         try:
             return shown_in(context) is not None
         except InvoluteError:
-            return False
+            return True
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Counts in two lines."""
-        shown: Shown = shown_in(context)
+        """Counts in two lines; or why there are no junctions."""
+        try:
+            shown: Shown = shown_in(context)
+        except InvoluteError as problem:
+            draw_sentence(self.layout, message(problem), "ERROR")
+            return
         drawing = shown.trace.drawing
         seconds = sum(drawing.seconds.values())
         column = self.layout.column(align=True)
@@ -118,6 +131,18 @@ class INVOLUTE_PT_summary(bpy.types.Panel):
         )
         for text in (drawn, found):
             column.label(text=text, translate=False)
+        scan = scan_of(shown.object)
+        if scan is not None:
+            row = self.layout.row(align=True)
+            row.prop(scan, "color", index=3, text="Scan", slider=True)
+            row.prop(scan, "hide_viewport", text="", icon="HIDE_OFF", invert_checkbox=True)
+
+
+def draw_sentence(layout: bpy.types.UILayout, sentence: str, icon: str) -> None:
+    """A sentence in lines that fit into the sidebar as Blender opens it."""
+    column = layout.column(align=True)
+    for number, line in enumerate(wrap(sentence, _LINE)):
+        column.label(text=line, icon="BLANK1" if number else icon, translate=False)
 
 
 def _button(

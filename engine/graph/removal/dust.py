@@ -4,27 +4,28 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...arrays.two_clusters import finer_pen
 from ...settings import Settings
 from ...values import PlanarGraph
+from ..evidence import Evidence
+from ..limits import LIMITS
 from ..topology import connected, lengths, means, select
 
-Array = np.ndarray
 
-_SPECK = 0.25  # pen widths of ink that a piece needs beyond Settings.min_length
-_FULL_INK = 80  # percentile of strength that counts as the full ink of the page
-_FAINT = 0.5  # share of the full ink below which a piece is as likely a scratch as a line
-
-
-def sweep(graph: PlanarGraph, settings: Settings) -> PlanarGraph:
+def remove_dust(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> PlanarGraph:
     """Drop every connected piece of a measured graph with too little ink to be a stroke.
 
     The fainter a piece is, beside the other lines of the page, the longer it must be: a pencil
-    line is long, a scratch or a fold of the paper rarely is.
+    line is long, a scratch or a fold of the paper rarely is. A dot of full ink, nearly as wide as
+    the pen, is drawn.
+
+    Reads: Settings.min_length, Settings.dots; widths and strength.
+    Promises: the branches that are left are as they were, measures included.
     """
     if graph.branch_count == 0:
         return graph
-    pen = float(np.median(graph.widths))
-    full = max(float(np.percentile(graph.strength, _FULL_INK)), 1e-3)
+    pen = float(np.median(finer_pen(graph.widths)))
+    full = max(float(np.percentile(graph.strength, LIMITS.dust_full)), 1e-3)
     label = connected(len(graph.vertices), graph.ends)
     piece = np.unique(label[graph.ends[:, 0]], return_inverse=True)[1]
     length = lengths(graph)
@@ -33,6 +34,12 @@ def sweep(graph: PlanarGraph, settings: Settings) -> PlanarGraph:
     mass = np.bincount(piece, weight)
     cap = np.bincount(piece, weight * width) / mass
     share = np.bincount(piece, weight * dark) / mass
-    shortest = settings.min_length * np.maximum(_FAINT / np.maximum(share, 0.01), 1.0) ** 2
-    stays = np.bincount(piece, length) + cap >= (shortest + _SPECK) * pen
+    shortest = (
+        settings.min_length * np.maximum(LIMITS.dust_faint / np.maximum(share, 0.01), 1.0) ** 2
+    )
+    stays = np.bincount(piece, length) + cap >= (shortest + LIMITS.dust_speck) * pen
+    if settings.dots:
+        round_ = np.bincount(piece, length) <= cap
+        wide = cap >= LIMITS.dot_narrowest * settings.min_length * pen
+        stays |= round_ & wide & (share >= LIMITS.dot_solid)
     return select(graph, stays[piece])

@@ -9,26 +9,25 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...arrays.two_clusters import finer_pen
 from ...settings import Settings
 from ...values import PlanarGraph
+from ..evidence import Evidence
+from ..limits import LIMITS
 from ..topology import connected, join, lengths, select
 
-Array = np.ndarray
 
-_TIP, _BETWEEN = 1.5, 2.0  # how many times as long as a loose stroke it must be
-
-
-def trim(graph: PlanarGraph, partner: Array, settings: Settings) -> PlanarGraph:
-    """The graph without its stubs, itself when it has none; not measured any more.
+def remove_stubs(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> PlanarGraph:
+    """Drop the stubs of a graph that was routed; without a routing all stay.
 
     A stub is a stroke that hangs between lines and is shorter than twice `Settings.min_length`, or
     one with a loose tip that is shorter than one and a half times as much.
 
-    Args:
-        graph: a measured graph.
-        partner: (2B,) the half-branch in which each one continues; itself = the stroke ends.
+    Reads: the routing, Settings.min_length; widths.
+    Promises: to be measured and routed anew where something went.
     """
-    if graph.branch_count == 0:
+    partner = evidence.partner
+    if graph.branch_count == 0 or partner is None:
         return graph
     half = np.arange(len(partner))
     stroke = connected(graph.branch_count, np.stack([half >> 1, partner >> 1], 1))
@@ -39,7 +38,7 @@ def trim(graph: PlanarGraph, partner: Array, settings: Settings) -> PlanarGraph:
         np.bincount(stroke[half[some] >> 1], minlength=graph.branch_count) > 0
         for some in (ends, degree == 1)
     )
-    pen = float(np.median(graph.widths))
-    shortest = np.where(loose, _TIP, _BETWEEN) * settings.min_length * pen
+    pen = float(np.median(finer_pen(graph.widths)))
+    shortest = np.where(loose, LIMITS.stub_tip, LIMITS.stub_between) * settings.min_length * pen
     stub = (hangs & (length < shortest))[stroke]
     return join(select(graph, ~stub)) if stub.any() else graph

@@ -1,9 +1,9 @@
 """Branches that nobody drew: rungs between close lines, hooks at thick ends, crumbs of grain.
 
-`cleanup` takes away what a rule can name. What is left is judged by a small network from how long
-and how bright a branch is, how it lies to its neighbours, and what the other maps see at its ends.
-It was trained on traced pages whose true strokes are known (training/graph), and says for every
-branch how probable it is that no stroke made it.
+`spurs` and `rungs` are what a rule can name. What is left is judged by a small network from how
+long and how bright a branch is, how it lies to its neighbours, and what the other maps see at its
+ends. It was trained on traced pages whose true strokes are known (training/undrawn), and says for
+every branch how probable it is that no stroke made it.
 """
 
 from __future__ import annotations
@@ -17,41 +17,37 @@ import numpy as np
 
 from ... import weights
 from ...arrays.sampling import sample
-from ...values import LineMaps, PlanarGraph
+from ...settings import Settings
+from ...values import Array, PlanarGraph
 from ..continuations import pairs_within
+from ..evidence import Evidence
+from ..limits import LIMITS
 from ..topology import join, lengths, means, select
-from .spurs import seen_near
-
-Array = np.ndarray
 
 WEIGHTS = weights.FOLDER / "undrawn.npz"
-SURE = 0.5  # probability from which on a branch goes
 FEATURES = 11 + 2 * 11  # of a branch: its own, and those of its two ends
 _LOOK = 6  # points of a branch that tell its direction
-LONGEST = 5.0  # pen widths; a longer branch stays, whatever is thought of it
 _AROUND = 25  # px; side of the square in which junctions are counted
 
 
-def drop_undrawn(graph: PlanarGraph, value: Array, maps: LineMaps, pen_width: float) -> PlanarGraph:
-    """The graph without the short branches that were most probably never drawn.
+def remove_undrawn(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> PlanarGraph:
+    """Drop the short branches that were most probably never drawn.
 
     Without the maps of a network, or without weights, the graph stays as it is.
 
-    Args:
-        graph: points about 1 px apart.
-        value: (H, W) the smoothed centerline map.
-        maps: what the centerline provider saw.
-        pen_width: typical width of a line, px.
+    Reads: all maps and the width of the pen; points about 1 px apart.
+    Promises: no vertices of degree two but those of rings.
 
     Raises:
         InvoluteError: the weights are damaged.
     """
+    maps = evidence.maps
     needed = (maps.junctions, maps.endpoints, maps.half_width, maps.solid)
     unseen = any(seen is None for seen in needed)
     if graph.branch_count == 0 or unseen or not WEIGHTS.exists():
         return graph
-    false = probability(features(graph, value, maps, pen_width)) > SURE
-    false &= lengths(graph) < LONGEST * pen_width
+    false = probability(features(graph, evidence)) > LIMITS.undrawn_sure
+    false &= lengths(graph) < LIMITS.undrawn_longest * evidence.pen_width
     return join(select(graph, ~false)) if false.any() else graph
 
 
@@ -72,8 +68,9 @@ def _net() -> dict[str, Array]:
         return {name: file[name].astype(np.float64) for name in file.files}
 
 
-def features(graph: PlanarGraph, value: Array, maps: LineMaps, pen_width: float) -> Array:
+def features(graph: PlanarGraph, evidence: Evidence) -> Array:
     """(B, F) float64: what tells a branch that was drawn from one that was not."""
+    value, maps, pen_width = evidence.value, evidence.maps, evidence.pen_width
     length = lengths(graph)
     bright = sample(value, graph.points).astype(np.float64)
     mean = means(graph, bright)
@@ -81,7 +78,7 @@ def features(graph: PlanarGraph, value: Array, maps: LineMaps, pen_width: float)
     width = 2 * means(graph, sample(maps.half_width, graph.points)) / pen_width
     solid = means(graph, sample(maps.solid, graph.points))
     chord = np.hypot(*(graph.vertices[graph.ends[:, 0]] - graph.vertices[graph.ends[:, 1]]).T)
-    ends = _at_ends(graph, mean, length, maps)
+    ends = _at_ends(graph, mean, length, evidence)
     # Both ends tell the same things: the smaller and the larger of each.
     both = ends.reshape(-1, 2, ends.shape[1])
     alone = [
@@ -100,7 +97,7 @@ def features(graph: PlanarGraph, value: Array, maps: LineMaps, pen_width: float)
     return np.column_stack([*alone, both.min(1), both.max(1)])
 
 
-def _at_ends(graph: PlanarGraph, mean: Array, length: Array, maps: LineMaps) -> Array:
+def _at_ends(graph: PlanarGraph, mean: Array, length: Array, evidence: Evidence) -> Array:
     """(2B, E): how each half-branch lies at its vertex, and what is seen there."""
     vertex = graph.half_vertex
     degree = graph.degrees[vertex]
@@ -126,21 +123,20 @@ def _at_ends(graph: PlanarGraph, mean: Array, length: Array, maps: LineMaps) -> 
         np.maximum.at(bright, one, mean[other >> 1])
         np.maximum.at(long, one, length[other >> 1])
     own = np.repeat(mean, 2) / np.maximum(np.where(bright > 0, bright, np.repeat(mean, 2)), 1e-3)
-    joints, tips = seen_near(maps.junctions, 5), seen_near(maps.endpoints, 7)
     place = graph.vertices[vertex]
     return np.column_stack(
         [
             degree == 1,
             degree == 3,
             degree >= 5,
-            sample(joints, place),
-            sample(tips, place),
+            sample(evidence.seen_junctions, place),
+            sample(evidence.seen_ends, place),
             straight,
             beside,
             past,
             own,
             np.log1p(long),
-            sample(_crowd(graph, maps.centerline.shape), place),
+            sample(_crowd(graph, evidence.shape), place),
         ]
     )
 

@@ -16,6 +16,7 @@ from .stroke_arrays import ALONG, BEZIER, FORMATS, Column, Curves, column
 Array = np.ndarray
 
 EPSILON = 0.02  # px; positions in metres and lengths in float32 are this exact
+_BEYOND = 1.0  # px; how far float32 and smoothing may carry a point past the end of its line
 _TURNS = (
     -1,
     0,
@@ -64,8 +65,11 @@ def piece_of(cel: Curves, number: int, index: int, whole: float) -> Piece | None
         whole: length of the traced stroke, where a closed one begins again.
 
     Returns:
-        None when the order of its points no longer is that of the traced line.
+        None when its points can't be told any more: their order is not that of the traced line,
+        or it is longer than that.
     """
+    if ALONG not in cel.points or cel.points[ALONG].type != "FLOAT":
+        return None
     part = slice(cel.offsets[index], cel.offsets[index + 1])
     piece = Piece(
         number,
@@ -84,7 +88,8 @@ def piece_of(cel: Curves, number: int, index: int, whole: float) -> Piece | None
         piece = piece.rows(np.roll(np.arange(len(piece)), -int(np.argmin(piece.along))))
         if piece.along[-1] - piece.along[0] > whole + EPSILON:
             return None
-    return None if (np.diff(piece.along) < -EPSILON).any() else piece
+    is_known = np.isfinite(piece.along).all() and piece.along.max(initial=0.0) <= whole + _BEYOND
+    return piece if is_known and (np.diff(piece.along) >= -EPSILON).all() else None
 
 
 def reversed_piece(piece: Piece, along: Array) -> Piece:

@@ -21,12 +21,16 @@ from .stroke_arrays import ALONG, BEZIER, HALF, POLY, TRACE, Column, Curves, col
 if TYPE_CHECKING:
     from ....engine import Drawing, Stroke
 
+Array = np.ndarray
+
 _LOST = 0.5  # of a stretch; an end with more missing than that is not the end it was
 _TOGETHER = 3.0  # px; ends that are this near become one point
 _UNTELLABLE = (
     "A stroke at this junction was changed so much that its ends can't be told; "
     "nothing was changed."
 )
+_GONE = "The strokes at this junction were deleted, or joined by hand; nothing was changed."
+_SHORTER = 0.02  # share of a stroke's length that smoothing it anew may take
 _OWN = ("cyclic", "curve_type", TRACE, HALF)  # attributes of strokes that are set here
 
 Source = tuple[Stretch, bool]  # a stretch of an old stroke, and whether it is walked backward
@@ -55,9 +59,15 @@ def plan(
         One edit per cel.
 
     Raises:
-        InvoluteError: the ends of a stroke that has to be joined or split can't be told.
+        InvoluteError: the ends of a stroke that has to be joined or split can't be told, or
+            none of the strokes is there.
     """
-    return _Splicer(old, new, cels, key, pixel_map).edits()
+    splicer = _Splicer(old, new, cels, key, pixel_map)
+    edits = splicer.edits()
+    if splicer.pieces and not any(edit.removed for edit in edits):
+        raise InvoluteError(_GONE)
+    _check_nothing_lost(edits, cels, pixel_map, int(splicer.changed.sum()))
+    return edits
 
 
 class _Splicer:
@@ -104,8 +114,8 @@ class _Splicer:
         owner = {int(h) >> 1: i for i in affected for h in self.old.strokes[i].branches}
         found: dict[int, list[Piece]] = {index: [] for index in affected}
         for number, cel in enumerate(self.cels):
-            halves = cel.curve(HALF).astype(np.int64) - 1
-            mine = (cel.curve(TRACE) == self.key) & np.isin(halves >> 1, list(owner))
+            halves = cel.mark(HALF) - 1
+            mine = (cel.mark(TRACE) == self.key) & np.isin(halves >> 1, list(owner))
             for curve in np.flatnonzero(mine).tolist():
                 index = owner[int(halves[curve]) >> 1]
                 stroke = self.old.strokes[index]
@@ -202,6 +212,28 @@ class _Splicer:
         edit = edits[main.cel]
         edit.added.append(replace(curves, curves=curves.curves | taken_over))
         edit.slots.append(main.index)
+
+
+def _check_nothing_lost(
+    edits: Sequence[Edit], cels: Sequence[Curves], pixel_map: PixelMap, ends: int
+) -> None:
+    """Whatever strokes say of themselves, what is taken away comes back joined otherwise.
+
+    Args:
+        ends: how many half-branches continue differently; each may lose what lies together.
+    """
+    removed = sum(_lengths(cel)[edit.removed].sum() for cel, edit in zip(cels, edits, strict=True))
+    added = sum(_lengths(curves).sum() for edit in edits for curves in edit.added)
+    if removed - added > _SHORTER * removed + ends * _TOGETHER * pixel_map.unit:
+        raise InvoluteError(_UNTELLABLE)
+
+
+def _lengths(curves: Curves) -> Array:
+    """(n,) length of each stroke's polygon in object units, without a closing side."""
+    places = curves.point("position").reshape(-1, 3).astype(np.float64)
+    steps = np.linalg.norm(np.diff(places, axis=0), axis=1)
+    along = np.concatenate([[0.0], np.cumsum(steps)])
+    return along[curves.offsets[1:] - 1] - along[curves.offsets[:-1]]
 
 
 def _overlap(a: Piece, b: Piece) -> bool:

@@ -6,6 +6,9 @@ artist has worked on it (named with a dot: hidden from the lists in the interfac
     .involute_trace   per stroke   key of the drawing in the data-block (see `state`); 0 = by hand
     .involute_half    per stroke   first half-branch of the stroke in that drawing, counted from 1;
                                    negative for what has no branches (solid blacks)
+    .involute_routing per stroke   which routing of the drawing the stroke is in (see
+                                   `stored_trace.mark_of`); 0 or missing = the one before the first
+                                   change
     .involute_along   per point    length along the stroke as it was traced, in pixels
 
 Blender interpolates the last one when points are added and keeps it when they move, so it still
@@ -29,6 +32,7 @@ Array = np.ndarray
 
 POLY, BEZIER = 1, 2  # Blender's numbers for the types of a curve
 TRACE, HALF, ALONG = ".involute_trace", ".involute_half", ".involute_along"
+ROUTING = ".involute_routing"
 
 WEIGHT = "WEIGHT"  # no attribute but a vertex group: see `vertex_weights`
 
@@ -75,6 +79,13 @@ class Curves:
     def sizes(self) -> Array:
         """(n,) how many points each stroke has."""
         return np.diff(self.offsets)
+
+    def mark(self, name: str) -> Array:
+        """(n,) int64: one of the attributes that mark strokes as traced; 0 where it is not ours."""
+        made = self.curves.get(name)
+        if made is None or made.type != "INT":
+            return np.zeros(len(self), np.int64)
+        return made.values[:, 0].astype(np.int64)
 
     def point(self, name: str, default: float = 0.0) -> Array:
         """An attribute of the points, (N,) or (N, k); full of `default` where there is none."""

@@ -1,4 +1,8 @@
-"""Which half-branches of a junction are joined: the involution with the greatest total score.
+"""Which half-branches of a junction are joined: involutions, and the one with the best total.
+
+Two stages ask: the graph stage, to put a junction where the smoothest curves meet (`least_cost`,
+many junctions at once), and routing, to say what is one stroke (`best_matching`, and all of them
+ranked in `routing.alternatives`).
 
 Half-branches of different junctions never pair, so the maximum-weight matching of the drawing
 (the paper "Stroke Vectorization via Involution Prediction", section on inference) is the union of
@@ -12,11 +16,10 @@ from functools import lru_cache
 
 import numpy as np
 
-from ..values import Pair
-
-Array = np.ndarray
+from .values import Array, Pair
 
 MAX_LISTED_DEGREE = 10  # 9,496 involutions
+LARGEST_EXACT = 8  # 764 involutions; half-branches of a cluster that `least_cost` solves exactly
 
 
 @lru_cache(maxsize=MAX_LISTED_DEGREE + 1)
@@ -42,6 +45,50 @@ def pair_matrix(degree: int) -> Array:
     """Which pairs each involution joins: (n, degree * (degree - 1) / 2) float32 of 0 and 1."""
     a, b = np.triu_indices(degree, 1)
     return (involutions(degree)[:, a] == b).astype(np.float32)
+
+
+def least_cost(group: Array, pairs: Array, cost: Array, alone: float) -> Array:
+    """Which pairs to join so that the whole costs least, for many groups at once.
+
+    Args:
+        group: (H,) the group of every half-branch; those of group -1 take no part.
+        pairs: (K, 2) all pairs within groups, and their cost (K,).
+        alone: cost of a half-branch that is joined to none.
+
+    Returns:
+        (K,) bool. Groups of up to eight half-branches are solved exactly, larger ones greedily.
+    """
+    chosen = np.zeros(len(pairs), bool)
+    if len(pairs) == 0:
+        return chosen
+    size = np.bincount(group[group >= 0])
+    owner = group[pairs[:, 0]]
+    # Pairs come group by group, each in the order of `pair_matrix`.
+    order = np.lexsort((pairs[:, 1], pairs[:, 0], owner))
+    for k in np.unique(size[owner]):
+        mine = order[size[owner[order]] == k]
+        if k <= LARGEST_EXACT:
+            table = pair_matrix(int(k)).astype(np.float64)
+            mine = mine.reshape(-1, table.shape[1])
+            total = cost[mine] @ table.T + alone * (k - 2 * table.sum(1))
+            chosen[mine] = table[total.argmin(1)] > 0
+        else:
+            chosen[_greedy(pairs[mine], cost[mine], mine, 2 * alone)] = True
+    return chosen
+
+
+def _greedy(pairs: Array, cost: Array, ids: Array, worth: float) -> Array:
+    """The ids of pairs taken one after the other, cheapest first, that cost less than `worth`."""
+    taken: set[int] = set()
+    picked = []
+    for i in np.argsort(cost, kind="stable"):
+        if cost[i] >= worth:
+            break
+        a, b = map(int, pairs[i])
+        if a not in taken and b not in taken:
+            taken |= {a, b}
+            picked.append(ids[i])
+    return np.array(picked, np.int64)
 
 
 def pairs_of(partner: Array, halves: Array) -> tuple[Pair, ...]:

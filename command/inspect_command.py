@@ -1,0 +1,77 @@
+"""`involute inspect`: what is in a drawing, and what would be traced in a scan."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ..engine.formats import FORMATS, load
+from ..engine.settings import Settings
+
+if TYPE_CHECKING:
+    from ..engine.drawing import Drawing
+
+
+def about(path: Path) -> Iterator[str]:
+    """Lines for people about a drawing or an image.
+
+    Raises:
+        InvoluteError: it can't be read.
+    """
+    if path.suffix.lower() in {f.suffix for f in FORMATS if f.read}:
+        return _about_drawing(load(path))
+    return _about_scan(path)
+
+
+def _about_drawing(drawing: Drawing) -> Iterator[str]:
+    import numpy as np
+
+    widths = np.concatenate([s.widths for s in drawing.strokes] or [np.zeros(1)])
+    low, middle, high = np.percentile(widths, (5, 50, 95))
+    colors = {stroke.color for stroke in drawing.strokes}
+    yield f"size       {drawing.size[0]} x {drawing.size[1]} px"
+    yield f"strokes    {len(drawing.strokes)}, {sum(s.closed for s in drawing.strokes)} closed"
+    yield f"points     {sum(len(s.points) for s in drawing.strokes)}"
+    yield f"widths     {middle:.1f} px (5 % under {low:.1f}, 5 % over {high:.1f})"
+    yield f"inks       {len(colors)}"
+    yield f"fills      {len(drawing.fills)}"
+    if drawing.fidelity:
+        lost, invented = drawing.fidelity.lost, drawing.fidelity.invented
+        yield f"fidelity   {lost:.2%} of the ink lost, {invented:.2%} of the strokes off the ink"
+    for sentence in (*drawing.notes, *drawing.warnings):
+        yield f"           {sentence}"
+    yield f"branches   {drawing.graph.branch_count}"
+    yield f"junctions  {len(drawing.junctions)}, {len(drawing.doubtful)} doubtful"
+    if not drawing.junctions:
+        return
+    yield ""
+    yield " junction        x        y  degree  doubt  joined (next best)"
+    doubtful = set(drawing.doubtful)
+    order = [*drawing.doubtful, *(j.index for j in drawing.junctions if j.index not in doubtful)]
+    for junction in (drawing.junctions[index] for index in order):
+        x, y = junction.position
+        others = [a for a in junction.alternatives if a.pairs != junction.pairs]
+        second = f"({_pairs(others[0].pairs)}: {others[0].probability:.0%})" if others else ""
+        state = "lock " if junction.locked else f"{junction.doubt:5.0%}"
+        yield (
+            f"{junction.index:9d} {x:8.1f} {y:8.1f} {junction.degree:7d}  {state}  "
+            f"{_pairs(junction.pairs)} {second}"
+        )
+
+
+def _pairs(pairs: Sequence[tuple[int, int]]) -> str:
+    return " ".join(f"{a}-{b}" for a, b in pairs) or "none"
+
+
+def _about_scan(path: Path) -> Iterator[str]:
+    from ..engine.scan import page_count, read_scan
+
+    scan, count = read_scan(path, Settings()), page_count(path)
+    yield f"size       {scan.size[0]} x {scan.size[1]} px" + (
+        f", {count} pages" if count > 1 else ""
+    )
+    yield f"pen        {scan.pen_width * scan.scale:.1f} px wide"
+    yield f"worked at  {scan.ink.shape[1]} x {scan.ink.shape[0]} px"
+    yield f"ink        {float(scan.ink.mean()):.1%} of the page"
+    yield f"color      {'no' if scan.color is None else 'yes'}"

@@ -1,0 +1,251 @@
+"""How one trace is kept in the ID property: encoding, and decoding with every check.
+
+    {"drawing": bytes, "base": str,      the engine's own JSON, compressed, and its hash
+     "routing": bytes, "stamp": str,     what was rerouted and locked since; hash of it all
+     "earlier": {stamp: bytes},          routings that undo may bring back, as differences
+     "unmarked": str,                    stamp that strokes without a mark have; missing = "stamp"
+     "placement": 9 floats, "source": str}
+
+A file may be cut short, or edited by other programs: whatever is wrong is said in one sentence.
+"""
+
+from __future__ import annotations
+
+import zlib
+from collections import OrderedDict
+from collections.abc import Iterator
+from contextlib import contextmanager
+from hashlib import blake2b
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ...engine import InvoluteError
+from .core.pixel_map import PixelMap
+
+if TYPE_CHECKING:
+    from ...engine import Drawing
+
+Array = np.ndarray
+
+UNSOUND = (
+    "This drawing has no junctions any more: what was stored of them is damaged. "
+    "Its strokes stay as they are."
+)
+_MAX_DECODED = 16
+_MAX_EARLIER = 256  # routings; as many as Blender keeps steps to undo at most
+_MOST_TEXT = 1 << 30  # bytes of JSON; a page with 100,000 strokes has 40 million
+_WRONG = (
+    AttributeError,
+    IndexError,
+    KeyError,
+    OverflowError,
+    RecursionError,
+    TypeError,
+    ValueError,
+    zlib.error,
+)
+_decoded: OrderedDict[str, Drawing] = OrderedDict()
+
+
+class UnsoundTraceError(InvoluteError):
+    """What was stored is damaged; the sentence is `UNSOUND`."""
+
+
+@contextmanager
+def reading() -> Iterator[None]:
+    """Whatever goes wrong inside is damage.
+
+    Raises:
+        UnsoundTraceError: with one sentence for people.
+    """
+    try:
+        yield
+    except UnsoundTraceError:
+        raise
+    except (InvoluteError, *_WRONG) as problem:
+        raise UnsoundTraceError(UNSOUND) from problem
+
+
+def stamp_of(entry: Any) -> str:
+    """The hash of all that is stored: the same as long as nothing was changed."""
+    return _text(entry, "stamp")
+
+
+def source_of(entry: Any) -> str:
+    """Where the drawing came from, in words."""
+    return _text(entry, "source")
+
+
+def pixel_map_of(entry: Any) -> PixelMap:
+    """Where its pixels lay when it was traced."""
+    numbers = np.array([float(value) for value in entry["placement"]])
+    if numbers.shape != (9,) or not np.isfinite(numbers).all() or np.abs(numbers).max() > 1e9:
+        raise ValueError("placement")
+    found = PixelMap.from_list(numbers.tolist())
+    if np.linalg.norm(np.cross(found.right, found.down)) == 0:
+        raise ValueError("placement")
+    return found
+
+
+def mark_of(stamp: str) -> int:
+    """What strokes carry to say in which routing they are: 31 bits of its stamp, never 0."""
+    return int(stamp[:8], 16) & 0x7FFFFFFF or 1
+
+
+def stamp_marked(entry: Any, mark: int) -> str:
+    """The stamp of the routing that strokes with this mark are in.
+
+    Raises:
+        KeyError: it is none of those that are remembered.
+    """
+    latest = stamp_of(entry)
+    if mark == 0:
+        return _text(entry, "unmarked") if "unmarked" in entry else latest
+    if mark == mark_of(latest):
+        return latest
+    return next(stamp for stamp in entry["earlier"].keys() if mark_of(stamp) == mark)  # noqa: SIM118
+
+
+def drawing_of(entry: Any, stamp: str) -> Drawing:
+    """The stored drawing in one of its routings; decoded and checked once for each content."""
+    drawing = _decoded.get(stamp)
+    if drawing is None:
+        base = base_of(entry)
+        if stamp == stamp_of(entry):
+            routing = _bytes(entry, "routing")
+            if stamp != _hash(_text(entry, "base").encode() + routing):
+                raise ValueError("stamp")
+            drawing = _with_routing(base, routing)
+        else:
+            drawing = _with_difference(base, _bytes(entry["earlier"], stamp))
+        remember(stamp, drawing)
+    return drawing
+
+
+def base_of(entry: Any) -> Drawing:
+    """The drawing of an entry as it was traced."""
+    from ...engine.formats import drawing_json
+
+    base = _text(entry, "base")
+    drawing = _decoded.get(base)
+    if drawing is None:
+        blob = _bytes(entry, "drawing")
+        if _hash(blob) != base:
+            raise ValueError("base")
+        inflate = zlib.decompressobj()
+        drawing = drawing_json.read(inflate.decompress(blob, _MOST_TEXT).decode("utf-8"))
+        remember(base, drawing)
+    return drawing
+
+
+def made(drawing: Drawing, pixel_map: PixelMap, source: str) -> tuple[dict[str, Any], str]:
+    """A new entry, and its stamp."""
+    from ...engine.formats import drawing_json
+
+    blob = zlib.compress(drawing_json.dumps(drawing).encode("utf-8"), 3)
+    base = _hash(blob)
+    stamp = _hash(base.encode())
+    remember(base, drawing)
+    remember(stamp, drawing)
+    entry = {"drawing": blob, "base": base, "routing": b"", "stamp": stamp}
+    return entry | {"placement": pixel_map.as_list(), "source": source}, stamp
+
+
+def rerouted(
+    entry: Any, before: Drawing, drawing: Drawing, pixel_map: PixelMap, stamp_before: str
+) -> tuple[dict[str, Any], str]:
+    """The entry with another routing of the same drawing, and its stamp.
+
+    Args:
+        before, stamp_before: the routing that it had until now, which undo may bring back.
+    """
+    base, routing = base_of(entry), _routing_of(drawing)
+    stamp = _hash(_text(entry, "base").encode() + routing)
+    earlier = dict(entry["earlier"].items()) if "earlier" in entry else {}
+    for known, one in ((stamp_before, before), (stamp, drawing)):
+        earlier.pop(known, None)
+        earlier[known] = _difference(base, one)
+    changed = {name: entry[name] for name in ("drawing", "base", "source")}
+    changed |= {"routing": routing, "stamp": stamp, "placement": pixel_map.as_list()}
+    changed["earlier"] = dict(list(earlier.items())[-_MAX_EARLIER:])
+    changed["unmarked"] = _text(entry, "unmarked") if "unmarked" in entry else stamp_of(entry)
+    remember(stamp, drawing)
+    return changed, stamp
+
+
+def differs_in_routing_only(base: Drawing, drawing: Drawing) -> bool:
+    """Was the drawing made from that one by rerouting and locking? Then all else is shared."""
+    return (
+        base.graph is drawing.graph
+        and base.routing.alternatives is drawing.routing.alternatives
+        and base.fills is drawing.fills
+    )
+
+
+def remember(stamp: str, drawing: Drawing) -> None:
+    """Keep a drawing for the next look-up of its stamp."""
+    _decoded[stamp] = drawing
+    _decoded.move_to_end(stamp)
+    while len(_decoded) > _MAX_DECODED:
+        _decoded.popitem(last=False)
+
+
+def _routing_of(drawing: Drawing) -> bytes:
+    """What rerouting and locking change: partners as int32, then locks as bits, compressed."""
+    routing = drawing.routing
+    partner = routing.partner.astype("<i4").tobytes()
+    return zlib.compress(partner + np.packbits(routing.locked).tobytes(), 3)
+
+
+def _difference(base: Drawing, drawing: Drawing) -> bytes:
+    """The same against the drawing as it was traced: a few dozen bytes."""
+    old, new = base.routing, drawing.routing
+    partner = (old.partner ^ new.partner).astype("<i4").tobytes()
+    return zlib.compress(partner + np.packbits(old.locked ^ new.locked).tobytes(), 3)
+
+
+def _with_routing(base: Drawing, routing: bytes) -> Drawing:
+    return base if not routing else _checked(base, *_unpacked(base, routing))
+
+
+def _with_difference(base: Drawing, difference: bytes) -> Drawing:
+    partner, locked = _unpacked(base, difference)
+    return _checked(base, partner ^ base.routing.partner, locked ^ base.routing.locked)
+
+
+def _unpacked(base: Drawing, packed: bytes) -> tuple[Array, Array]:
+    """Partners and locks of `_routing_of`."""
+    halves, junctions = len(base.routing.partner), len(base.routing.locked)
+    size = 4 * halves + -(-junctions // 8)
+    raw = zlib.decompressobj().decompress(packed, size + 1)
+    if len(raw) != size:
+        raise ValueError("routing")
+    partner = np.frombuffer(raw, "<i4", halves).astype(np.int32)
+    bits = np.unpackbits(np.frombuffer(raw, np.uint8, offset=4 * halves))
+    return partner, bits[:junctions].astype(bool)
+
+
+def _checked(base: Drawing, partner: Array, locked: Array) -> Drawing:
+    from ...engine.soundness import check_involution
+
+    check_involution(base.graph, partner)
+    return base.with_routing(partner, locked)
+
+
+def _hash(content: bytes) -> str:
+    return blake2b(content, digest_size=16).hexdigest()
+
+
+def _text(entry: Any, name: str) -> str:
+    value = entry[name]
+    if not isinstance(value, str):
+        raise TypeError(name)
+    return value
+
+
+def _bytes(entry: Any, name: str) -> bytes:
+    value = entry[name]
+    if not isinstance(value, bytes):
+        raise TypeError(name)
+    return value

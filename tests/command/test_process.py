@@ -1,0 +1,261 @@
+"""The command as a process: pipes, signals, closed streams, odd names, what it may use and says."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+from involute.command import cli, machine
+from involute.command.temporary import temporary_folder
+from involute.engine import Drawing
+
+fcntl, pty, termios = map(pytest.importorskip, ("fcntl", "pty", "termios"))
+pytestmark = pytest.mark.skipif(os.name != "posix", reason="signals and terminals of Unix")
+FAST = ["--provider", "classical", "--router", "geometric"]
+COMMAND = [sys.executable, "-m", "involute", "trace", *FAST]
+
+
+def page(path: Path, side: int = 60) -> Path:
+    picture = np.full((side, side), 255, np.uint8)
+    cv2.line(picture, (5, 5), (side - 5, side - 9), 0, 2, cv2.LINE_AA)
+    path.parent.mkdir(exist_ok=True)
+    cv2.imwrite(str(path), picture)
+    return path
+
+
+def trace(*arguments) -> int:
+    return cli.main(["trace", *FAST, *map(str, arguments)])
+
+
+def run(*arguments, **more) -> subprocess.CompletedProcess:
+    more = {"capture_output": True, "timeout": 120} | more
+    return subprocess.run([*COMMAND, *map(os.fspath, arguments)], **more)
+
+
+# --- what is said ----------------------------------------------------------------------------
+
+
+def test_in_a_pipe_only_trouble_is_told(tmp_path, capsys):
+    page(tmp_path / "in" / "a.png")
+    (tmp_path / "in" / "notes.txt").write_text("words")
+    (tmp_path / "in" / "plan.pdf").write_text("%PDF")
+    assert trace(tmp_path / "in", "-o", tmp_path / "out") == 0
+    said = capsys.readouterr().err
+    assert said.startswith("involute: left out: notes.txt (not a picture); plan.pdf (PDF is not")
+    assert len(said.splitlines()) == 1
+    assert trace(tmp_path / "in", "-o", tmp_path / "out2", "--quiet") == 0
+    assert capsys.readouterr().err == ""
+    assert trace(tmp_path / "in" / "a.png", "-o", tmp_path / "b.svg", "--verbose") == 0
+    said = capsys.readouterr().err.splitlines()
+    assert said[0].startswith("involute: a.png: 1 stroke, 0 doubtful junctions")
+    assert said[0].endswith(" -> b.svg")
+    assert "centerline" in said[-1]
+    assert trace(tmp_path / "gone.png", "-o", tmp_path / "c.svg", "--quiet") == 1
+    assert "no file" in capsys.readouterr().err
+
+
+def test_on_a_terminal_each_image_gets_a_line(tmp_path):
+    scan, out = page(tmp_path / "a.png"), tmp_path / "a.svg"
+    ours, theirs = pty.openpty()
+    fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 80, 0, 0))
+    done = subprocess.Popen([*COMMAND, scan, "-o", out], stderr=theirs)
+    os.close(theirs)
+    said = b""
+    try:
+        while block := os.read(ours, 4096):
+            said += block
+    except OSError:  # the other end is closed
+        pass
+    assert done.wait(60) == 0
+    assert b"a.png: 1 stroke, 0 doubtful junctions" in said
+    assert b"-> a.svg" in said
+    assert b"%" in said  # the bar
+
+
+# --- what is read and written ----------------------------------------------------------------
+
+
+def test_an_image_comes_through_a_pipe(tmp_path):
+    scan = page(tmp_path / "a.png")
+    done = run("-", "-o", tmp_path / "b.svg", input=scan.read_bytes())
+    assert done.returncode == 0, done.stderr
+    assert len(Drawing.load(tmp_path / "b.svg").strokes) == 1
+    done = run("-", "-o", tmp_path / "c.svg", input=b"nothing")
+    assert done.returncode == 1
+    assert b"not a picture" in done.stderr
+
+
+@pytest.mark.skipif(sys.platform == "darwin", reason="names there are always UTF-8")
+@pytest.mark.parametrize("more", [{}, {"LC_ALL": "POSIX", "PYTHONUTF8": "0"}])
+def test_names_that_are_no_text_are_traced(more, tmp_path):
+    scan = page(tmp_path / "in" / "a.png")
+    odd = os.fsdecode(os.fsencode(tmp_path / "in" / "b") + b"\xff\xfe.png")
+    os.rename(scan, odd)
+    page(tmp_path / "in" / "漢.png")
+    words = [tmp_path / "in", "-o", tmp_path / "out", "--jobs", "2", "--verbose"]
+    done = run(*words, "--report", tmp_path / "r.json", env=os.environ | more)
+    assert done.returncode == 0, done.stderr
+    assert b"b\xff\xfe.svg" in os.listdir(os.fsencode(tmp_path / "out"))
+
+
+@pytest.mark.parametrize("closed", [(0,), (1,), (2,), (0, 1, 2)])
+def test_closed_streams_do_no_harm(closed, tmp_path):
+    scan, out = page(tmp_path / "a.png"), tmp_path / "a.json"
+    streams = {"stdin": None, "stdout": None, "stderr": None, "capture_output": False}
+    done = run(scan, "-o", out, preexec_fn=lambda: [os.close(n) for n in closed], **streams)
+    assert done.returncode == 0
+    assert Drawing.load(out).strokes
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="Linux")
+def test_a_reader_that_takes_nothing_is_no_traceback(tmp_path):
+    assert trace(page(tmp_path / "a.png"), "-o", tmp_path / "a.json") == 0
+    for words in (["inspect", tmp_path / "a.json"], ["--help"], ["trace", "--help"]):
+        with open("/dev/full", "w") as full:
+            done = subprocess.run(
+                [*COMMAND[:3], *map(str, words)], stdout=full, stderr=subprocess.PIPE, timeout=60
+            )
+        assert done.returncode == 1 or "--help" in words  # which argparse prints
+        assert b"Traceback" not in done.stderr
+        assert b"ignored" not in done.stderr
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["--frames", "9" * 5000],
+        ["--frames", "1-99999999999999999999"],
+        ["--frames", ""],
+        ["--jobs", "9" * 30],
+        ["--jobs", "²"],
+        ["--pen-width", "nan"],
+        ["--smoothing", "inf"],
+        ["--ignore-inks", "x"],
+        ["--format", ","],
+        ["--report", "/"],
+        ["--report", ""],
+        ["--sequence", "--start", "99999999999"],
+        ["--sequence", "--step", "999999999999"],
+        ["--sequence", "--step", "0"],
+    ],
+)
+def test_odd_arguments_are_one_sentence(words, tmp_path, capsys):
+    page(tmp_path / "in" / "a1.png")
+    page(tmp_path / "in" / "a2.png")
+    assert trace(tmp_path / "in", "-o", tmp_path / "out", "--format", "svg", *words) in (0, 1, 2)
+    assert "Traceback" not in capsys.readouterr().err
+
+
+def test_what_is_no_file_is_never_replaced(tmp_path):
+    scan, pipe = page(tmp_path / "a.png"), tmp_path / "pipe.svg"
+    os.mkfifo(pipe)
+    (tmp_path / "link.svg").symlink_to(pipe)
+    for out in (pipe, tmp_path / "link.svg"):
+        assert trace(scan, "-o", out, "--overwrite") == 1
+    assert pipe.is_fifo()
+    assert (tmp_path / "link.svg").is_symlink()
+    assert trace(scan, "-o", tmp_path / "a.svg", "--report", pipe) == 1
+    assert pipe.is_fifo()
+
+
+@pytest.mark.parametrize("words", [[""], ["/dev/null"], ["["], ["x" * 5000], ["**"], ["/dev"]])
+def test_odd_inputs_are_one_sentence(words, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert trace(*words, "-o", "out") in (1, 2)
+    assert len(capsys.readouterr().err.splitlines()) == 1
+
+
+def test_numbers_that_are_times_are_ranks(tmp_path):
+    for second in (0, 1, 7):
+        page(tmp_path / "in" / f"scan_2024010112000{second}.png")
+    report = tmp_path / "r.json"
+    words = [tmp_path / "in", "--sequence", "-o", tmp_path / "out", "--format", "svg"]
+    assert trace(*words, "--report", report) == 0
+    assert [image["frame"] for image in json.loads(report.read_text())["images"]] == [1, 2, 3]
+
+
+# --- being stopped ---------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+@pytest.mark.parametrize("wait", [0.0, 0.05, 0.3, 1.0, 2.0])
+def test_told_to_end_it_leaves_nothing(number, wait, tmp_path):
+    for k in range(12):
+        page(tmp_path / "in" / f"{k}.png", 200)
+    temporary, out = tmp_path / "tmp", tmp_path / "out"
+    temporary.mkdir()
+    process = subprocess.Popen(
+        [*COMMAND, tmp_path / "in", "-o", out, "--jobs", "2"],
+        env=os.environ | {"TMPDIR": str(temporary)},
+        stderr=subprocess.PIPE,
+    )
+    time.sleep(wait)
+    process.send_signal(number)
+    said = process.communicate(timeout=60)[1]
+    assert b"cli.py" not in said  # what comes before is Python itself that is starting
+    assert process.returncode in (0, cli.STOPPED, -number)
+    assert not list(temporary.iterdir())
+    for path in out.iterdir() if out.is_dir() else ():
+        assert ".part" not in path.name
+        assert Drawing.load(path).strokes
+
+
+def test_folders_of_killed_runs_are_cleared_away(tmp_path, monkeypatch):
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    dead = subprocess.Popen([sys.executable, "-c", ""])
+    dead.wait()
+    for name in (f"involute-{dead.pid}-abc", f"involute-{os.getpid()}-abc", "involute-notes"):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "0.json").write_text("{}")
+    with temporary_folder() as folder:
+        assert folder.stat().st_mode & 0o777 == 0o700
+        left = {path.name for path in tmp_path.iterdir()}
+        assert left == {f"involute-{os.getpid()}-abc", "involute-notes", folder.name}
+    assert not folder.exists()
+
+
+# --- what it may use -------------------------------------------------------------------------
+
+
+def groups(folder: Path, monkeypatch, **files: str) -> None:
+    for name, content in files.items():
+        path = folder / name.replace("__", "/")
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(content)
+    monkeypatch.setattr(machine, "_GROUPS", folder)
+    monkeypatch.setattr(machine, "_OWN_GROUP", folder / "own")
+
+
+def test_a_container_limits_cores_and_memory(tmp_path, monkeypatch):
+    before = machine.cores(), machine.memory()
+    files = {"own": "0::/a/b\n", "a__cpu.max": "50000 100000", "a__b__memory.max": "1000000000"}
+    groups(tmp_path, monkeypatch, **files)
+    assert machine.cores() == 1
+    assert machine.memory() == 1e9
+    files = {"own": "0::/a/b\n", "a__cpu.max": "max 100000", "a__b__memory.max": "max"}
+    groups(tmp_path, monkeypatch, **files)
+    assert machine.cores() >= before[0]
+    assert machine.memory() >= before[1]
+    old = {"own": "4:memory:/x\n", "memory__x__memory.limit_in_bytes": "2000000000"}
+    groups(tmp_path / "old", monkeypatch, **old)
+    assert machine.memory() == 2e9
+
+
+@pytest.mark.skipif(not hasattr(os, "sched_setaffinity"), reason="Linux")
+def test_affinity_limits_the_cores():
+    allowed = os.sched_getaffinity(0)
+    os.sched_setaffinity(0, {min(allowed)})
+    try:
+        assert machine.cores() == 1
+    finally:
+        os.sched_setaffinity(0, allowed)

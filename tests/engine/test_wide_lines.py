@@ -1,0 +1,59 @@
+"""Broad pens beside fine ones, and where a line ends to be one."""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+import pytest
+from involute.engine import Settings, vectorize
+from involute.engine.arrays.two_clusters import finer_pen
+from involute.engine.scan import read_scan
+from involute.engine.scan.wide_lines import find_wide_lines
+
+
+def page(broad=22, grain=False):
+    """Two broad strokes, and three of a pen of about 5 px."""
+    image = np.full((420, 520), 255, np.uint8)
+    cv2.line(image, (60, 60), (60 + 5 * broad, 110), 0, broad, cv2.LINE_AA)
+    cv2.ellipse(image, (360, 140), (80, 70), 0, 20, 300, 0, broad, cv2.LINE_AA)
+    if grain:
+        noise = cv2.GaussianBlur(np.random.default_rng(1).normal(0, 1, image.shape), (0, 0), 1)
+        image = np.maximum(image, np.uint8(np.clip(120 * noise / noise.std(), 0, 160)))
+    for y in (280, 330, 380):
+        cv2.line(image, (30, y), (490, y - 25), 0, 4, cv2.LINE_AA)
+    return image
+
+
+@pytest.mark.parametrize("grain", [False, True])
+@pytest.mark.parametrize("broad", [14, 22])
+def test_every_stroke_of_either_pen_is_one_stroke(broad, grain):
+    drawing = vectorize(page(broad, grain), Settings(router="geometric"))
+    widths = sorted(float(np.median(stroke.widths)) for stroke in drawing.strokes)
+    assert len(widths) == 5, widths
+    assert not drawing.fills
+    assert np.allclose(widths[:3], 5, atol=1)  # as wide as OpenCV draws 4 px
+    assert np.allclose(widths[3:], broad, rtol=0.2)
+    assert drawing.fidelity.lost < 0.01
+
+
+def test_the_user_says_from_which_width_on_it_is_an_area():
+    drawing = vectorize(page(22), Settings(solid_width=15, router="geometric"))
+    assert len(drawing.strokes) == 3
+    assert len(drawing.fills) == 2
+
+
+def test_one_pen_has_no_wide_lines_and_blots_are_none():
+    thin = np.full((300, 300), 255, np.uint8)
+    cv2.circle(thin, (150, 150), 100, 0, 5, cv2.LINE_AA)
+    assert not find_wide_lines(read_scan(thin, Settings()), Settings()).any
+    cv2.circle(thin, (150, 150), 40, 0, -1, cv2.LINE_AA)
+    assert not find_wide_lines(read_scan(thin, Settings()), Settings()).any
+
+
+def test_two_pens_are_told_apart_and_a_swelling_brush_is_one():
+    rng = np.random.default_rng(0)
+    fine, broad = rng.normal(4, 0.3, 300), rng.normal(22, 1, 200)
+    assert finer_pen(np.concatenate([broad, fine])).max() < 6
+    brush = np.linspace(2, 14, 400)
+    assert len(finer_pen(brush)) == 400
+    assert len(finer_pen(fine)) == 300

@@ -1,0 +1,1 @@
+"""Learns where the pen was lifted."""

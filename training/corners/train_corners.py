@@ -1,0 +1,220 @@
+"""Learn at which corners the pen was lifted, for `engine/routing/lifting.py`.
+
+`python -m training.corners.train_corners --train FILE ... --held-out FILE` trains on what
+`lift_pages` gathered and writes engine/weights/corners.npz; the held-out pages choose when to stop.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import torch
+from involute.engine.graph.clues import WEIGHTS
+from involute.engine.graph.lifts import SIDE
+from torch import nn
+
+from .. import digests
+from .lift_pages import UNKNOWN, Corners
+
+Array = np.ndarray
+Tensor = torch.Tensor
+
+CLUES = 8  # numbers that are kept of each corner
+_SEE, _JUDGE = (64, 32), (32,)  # widths of the hidden layers
+_PAGES = 24  # pages of a batch
+_DECIDED = 0.3  # share of the pages on which a user has decided some corners
+_BLIND = 0.08  # share of the pages on which the patches, or all maps of the network, are hidden
+
+
+class Lifts(nn.Module):
+    """The two rounds: what a corner shows, and what it means on its page."""
+
+    def __init__(self, mean: Tensor, spread: Tensor, dropout: float) -> None:
+        super().__init__()
+        self.register_buffer("mean", mean)
+        self.register_buffer("spread", spread)
+        self.see = _layers([len(mean), *_SEE, CLUES], dropout)
+        self.judge = _layers([3 * CLUES + 2, *_JUDGE, 1], 0.0)
+
+    def clues(self, evidence: Tensor) -> Tensor:
+        return torch.tanh(self.see(((evidence - self.mean) / self.spread).clamp(-5, 5)))
+
+    def forward(self, evidence: Tensor, page: Tensor, decided: Tensor) -> tuple[Tensor, Tensor]:
+        """Log-odds of going on: with the page, (N,), and by the corner alone (its first clue)."""
+        clues = self.clues(evidence)
+        about = _about(clues, page, decided)
+        rows = torch.cat([clues, about[page]], 1)
+        return self.judge(rows)[:, 0], 4 * clues[:, 0]
+
+
+def _about(clues: Tensor, page: Tensor, decided: Tensor) -> Tensor:
+    """What `engine.routing.lifting.page_of` makes, for many pages at once."""
+    pages = int(page.max()) + 1
+
+    def total(values: Tensor) -> Tensor:
+        return torch.zeros(pages, values.shape[1]).index_add_(0, page, values)
+
+    weight = clues[:, :1].abs() + 1e-3
+    number = total(torch.ones_like(weight))
+    count, said = total(decided.abs()[:, None]), total(decided[:, None])
+    return torch.cat(
+        [
+            total(clues) / number.clamp(min=1),
+            total(weight * clues) / total(weight).clamp(min=1e-6),
+            said / (count + 1),
+            count / (count + 3),
+        ],
+        1,
+    )
+
+
+def _layers(sizes: list[int], dropout: float) -> nn.Sequential:
+    layers: list[nn.Module] = []
+    for a, b in pairwise(sizes):
+        layers += [nn.Linear(a, b), nn.ReLU(), nn.Dropout(dropout)]
+    return nn.Sequential(*layers[:-2])
+
+
+def weights(model: Lifts) -> dict[str, Array]:
+    """The network as `engine.graph.clues` reads it."""
+    found = {"mean": model.mean.numpy(), "spread": model.spread.numpy()}
+    for name in ("see", "judge"):
+        linear = [layer for layer in getattr(model, name) if isinstance(layer, nn.Linear)]
+        for k, layer in enumerate(linear):
+            found[f"{name}_weight{k}"] = layer.weight.detach().numpy().T
+            found[f"{name}_bias{k}"] = layer.bias.detach().numpy()
+    return {name: np.ascontiguousarray(value, np.float32) for name, value in found.items()}
+
+
+def joined(paths: list[Path]) -> Corners:
+    """All corners of several files; pages are numbered on."""
+    parts = [Corners.load(path) for path in paths]
+    first = np.cumsum([0] + [len(part.habit) for part in parts])
+    return Corners(
+        np.concatenate([part.evidence for part in parts]),
+        np.concatenate([part.truth for part in parts]),
+        np.concatenate([part.page + n for part, n in zip(parts, first, strict=False)]),
+        np.concatenate([part.habit for part in parts]),
+    )
+
+
+def mirrored(evidence: Tensor) -> Tensor:
+    """The same corners seen in a mirror: only the patches change."""
+    patch = evidence[:, -3 * SIDE * SIDE :].reshape(-1, 3, SIDE, SIDE).flip(2)
+    return torch.cat([evidence[:, : -3 * SIDE * SIDE], patch.reshape(len(patch), -1)], 1)
+
+
+def train(data: Corners, held: Corners, steps: int, seed: int, dropout: float) -> Lifts:
+    """The weights that are best on the held-out pages."""
+    torch.manual_seed(seed)
+    rng = np.random.default_rng(seed)
+    torch.set_num_threads(1)
+    evidence, truth = torch.from_numpy(data.evidence.astype(np.float32)), data.truth
+    spread = evidence.std(0).clamp(min=0.02)
+    model = Lifts(evidence.mean(0), spread, dropout)
+    rate = 2e-3
+    optimizer = torch.optim.AdamW(model.parameters(), lr=rate, weight_decay=0.05)
+    plan = torch.optim.lr_scheduler.OneCycleLR(optimizer, rate, total_steps=steps)
+    order = np.argsort(data.page, kind="stable")
+    bounds = np.searchsorted(data.page[order], np.arange(len(data.habit) + 1))
+    full = np.flatnonzero(np.diff(bounds) > 0)
+    best, kept = np.inf, {}
+    for step in range(steps):
+        pages = rng.choice(full, _PAGES)
+        rows = np.concatenate([order[bounds[p] : bounds[p + 1]] for p in pages])
+        number = np.repeat(np.arange(len(pages)), np.diff(bounds)[pages])
+        said = truth[rows].astype(np.float32)
+        loss = _loss(rng, model, evidence[rows], number, said)
+        optimizer.zero_grad()
+        loss.backward()
+        nn.utils.clip_grad_norm_(model.parameters(), 1.0)
+        optimizer.step()
+        plan.step()
+        if step % 100 == 99 or step == steps - 1:
+            model.eval()
+            figure = figures(model, held)
+            model.train()
+            print(step + 1, round(float(loss), 3), figure, flush=True)
+            if figure["loss"] < best:
+                best = figure["loss"]
+                kept = {name: value.clone() for name, value in model.state_dict().items()}
+    model.load_state_dict(kept)
+    return model.eval()
+
+
+def _loss(
+    rng: np.random.Generator, model: Lifts, seen: Tensor, page: Array, truth: Array
+) -> Tensor:
+    if rng.random() < 0.5:
+        seen = mirrored(seen)
+    page = torch.from_numpy(page)
+    decided = np.zeros(len(truth), np.float32)
+    share = np.where(rng.random(_PAGES) < _DECIDED, rng.uniform(0, 0.4, _PAGES), 0)
+    given = (rng.random(len(truth)) < share[page]) & (truth != UNKNOWN)
+    decided[given] = 2 * truth[given] - 1
+    known = torch.from_numpy((truth != UNKNOWN) & ~given)
+    target = torch.from_numpy(truth)[known]
+    with_page, alone = model(seen, page, torch.from_numpy(decided))
+    loss = nn.functional.binary_cross_entropy_with_logits
+    # A page with many corners counts more than one with few, but not as much more.
+    size = torch.bincount(page[known], minlength=_PAGES).clamp(min=1).float()
+    weight = (size**-0.5)[page[known]]
+    weight = weight / weight.mean()
+    return loss(with_page[known], target, weight) + 0.3 * loss(alone[known], target, weight)
+
+
+def figures(model: Lifts, data: Corners) -> dict[str, float]:
+    """How well the corners of pages are decided, all pages at once, by kinds of habit."""
+    known = data.truth != UNKNOWN
+    with torch.no_grad():
+        evidence = torch.from_numpy(data.evidence.astype(np.float32))
+        page = torch.from_numpy(data.page.astype(np.int64))
+        score, alone = (s.numpy() for s in model(evidence, page, torch.zeros(len(page))))
+    truth = data.truth
+    habit = data.habit[data.page]
+    found = {
+        "loss": _nll(score[known], truth[known]),
+        "alone": _nll(alone[known], truth[known]),
+    }
+    turned = data.evidence[:, 1] > np.radians(35)
+    for name, own in {
+        "all": known,
+        "through": known & (habit == 0),
+        "mixed": known & (habit > 0) & (habit < 0.85),
+        "lifting": known & (habit >= 0.85),
+        "lifting, corners": known & (habit >= 0.85) & turned,
+        "through, corners": known & (habit == 0) & turned,
+    }.items():
+        right = (score > 0) == (truth > 0)
+        found[name] = float(right[own].mean())
+        found[f"{name}, alone"] = float(((alone > 0) == (truth > 0))[own].mean())
+        found[f"{name}, on"] = float((truth > 0)[own].mean())
+    return {name: round(value, 3) for name, value in found.items()}
+
+
+def _nll(score: Array, truth: Array) -> float:
+    return float(np.logaddexp(0, np.where(truth > 0, -score, score)).mean())
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--train", type=Path, nargs="+", required=True)
+    parser.add_argument("--held-out", type=Path, required=True)
+    parser.add_argument("--out", type=Path, default=WEIGHTS)
+    parser.add_argument("--steps", type=int, default=2000)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--dropout", type=float, default=0.2)
+    args = parser.parse_args()
+    held = Corners.load(args.held_out)
+    model = train(joined(args.train), held, args.steps, args.seed, args.dropout)
+    print(json.dumps(figures(model, held), indent=1))
+    np.savez(args.out, **weights(model))
+    digests.note(args.out)
+
+
+if __name__ == "__main__":
+    main()

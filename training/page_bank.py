@@ -1,0 +1,56 @@
+"""Results of many numbered pages, made by parallel processes and kept in a file as they come."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass
+from multiprocessing import get_context
+from pathlib import Path
+from typing import Any, Generic, TypeVar
+
+Result = TypeVar("Result")
+
+
+@dataclass(frozen=True)
+class PageBank(Generic[Result]):
+    """How the results of pages are kept.
+
+    path: a .npz file. load: gives all results and how many pages were tried; save: writes them.
+    piece: pages between two writings.
+    """
+
+    path: Path
+    load: Callable[[Path], tuple[list[Result], int]]
+    save: Callable[[Path, list[Result], int], None]
+    piece: int
+
+    def filled(
+        self,
+        pages: int,
+        make: Callable[[int], Result | None],
+        jobs: int = 1,
+        prepare: Callable[..., None] | None = None,
+        work: tuple[Any, ...] = (),
+    ) -> list[Result]:
+        """The results of so many pages: those in the file, and the rest made and added to it.
+
+        make(number) gives the result of a page, or None when it comes to nothing; it and
+        prepare(*work), which every process calls once, are functions of a module.
+        """
+        results, tried = self.load(self.path) if self.path.exists() else ([], 0)
+        if tried >= pages:
+            return results
+        with ProcessPoolExecutor(jobs, get_context("spawn"), prepare, work) as pool:
+            while tried < pages:
+                numbers = range(tried, min(tried + self.piece, pages))
+                results += [found for found in pool.map(make, numbers) if found is not None]
+                tried = numbers.stop
+                self._write(results, tried)
+                print(f"{self.path.name}: {len(results)} of {tried} pages", flush=True)
+        return results
+
+    def _write(self, results: list[Result], tried: int) -> None:
+        part = self.path.with_suffix(".part.npz")
+        self.save(part, results, tried)
+        part.replace(self.path)
