@@ -1,7 +1,7 @@
 """Write the weights of a run as the ONNX file that the engine reads, and check it.
 
 python -m involute.training.centerline.export_centerline
-    --checkpoint RUN/checkpoint.pt --out centerline.onnx
+    --checkpoint RUN/checkpoint.pt --out centerline.onnx (or FILE.pt, to train on from)
 """
 
 from __future__ import annotations
@@ -34,10 +34,19 @@ def main(arguments: list[str] | None = None) -> None:
     parser.add_argument("--out", type=Path, required=True)
     options = parser.parse_args(arguments)
     net = restored(options.checkpoint)
+    if options.out.suffix == ".pt":
+        keep(net, options.out)
+        return
     export(net, options.out)
     digests.note(options.out, options.checkpoint.parent)
     print(f"{options.out.name}: {options.out.stat().st_size / 1e6:.1f} MB")
     print(f"OpenCV against torch: {worst_difference(net, options.out):.1e}")
+
+
+def keep(net: CenterlineNet, out: Path) -> None:
+    """Write the weights, norms and all, as 16 bit: for `train_centerline --start-from`."""
+    state = net.state_dict().items()
+    torch.save({"mean": {k: v.half() if v.is_floating_point() else v for k, v in state}}, out)
 
 
 def folded(net: CenterlineNet) -> CenterlineNet:
