@@ -51,7 +51,7 @@ def in_window(argv: Sequence[str] | None = None) -> Figures:
     Raises:
         ValueError: there is no display, or no Blender.
     """
-    argparse.ArgumentParser(description=in_window.__doc__.splitlines()[0]).parse_args(argv)
+    argparse.ArgumentParser(description="The overlay in an idle redraw.").parse_args(argv)
     if not (rows := redraw()):
         raise ValueError("The run redraw needs a display and `blender` on the path.")
     print("\n".join(f"{what:40} {milliseconds:8.2f} ms" for what, milliseconds, _ in rows))

@@ -58,7 +58,7 @@ def _lines(values: Mapping[str, float]) -> list[str]:
     """A line a kind of page over the page's side, both axes logarithmic."""
     curves: dict[str, list[tuple[float, float]]] = {}
     for row, value in values.items():
-        kind, side = _SIZED.match(row).groups()
+        kind, _, side = row.removesuffix(" px").rpartition(", ")
         if value > 0 and isfinite(value):
             curves.setdefault(kind, []).append((log10(float(side)), log10(value)))
     points = [point for curve in curves.values() for point in curve]

@@ -81,6 +81,7 @@ def written(drawing: Drawing, settings: Settings, ink: bool) -> list[Stroke]:
     """The strokes of a drawing with other settings; without ink, its lines are even and opaque."""
     graph = drawing.graph
     if not ink:
+        assert graph.widths is not None, "a drawing's graph is measured"
         even = np.full_like(graph.widths, np.median(graph.widths)) if len(graph.widths) else None
         graph = replace(graph, widths=even, strength=None)
     return build(Page.of(graph, settings), walk(drawing.routing.partner))

@@ -51,8 +51,8 @@ def main(argv: Sequence[str] | None = None) -> dict[str, dict[str, float]]:
         command = [python, __file__, "--inside", str(options.zip)]
         runs = []
         for _ in range(options.repeat):
-            told = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
-            runs.append(json.loads(told.stdout.splitlines()[-1]))
+            done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+            runs.append(json.loads(done.stdout.splitlines()[-1]))
         least = {
             name: [min(run[name][k] for run in runs) for k in (0, 1)]
             for name in ("install", "enable", "loading")

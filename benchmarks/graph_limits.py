@@ -73,7 +73,8 @@ def look(page: JudgedPage, settings: Settings) -> tuple[Evidence, tuple[int, int
     scan = read_scan(page.image, settings)
     lines, _ = split_solids(scan, settings)
     maps = provider_for(settings)(lines, lambda fraction: None)
-    return Evidence.of(lines, maps), scan.ink.shape[::-1], page.true_strokes()
+    height, width = scan.ink.shape
+    return Evidence.of(lines, maps), (width, height), page.true_strokes()
 
 
 def judged(

@@ -37,7 +37,7 @@ from involute.engine.strokes.walk import walk
 from involute.engine.values import LineMaps, PlanarGraph, Routing
 from scipy.spatial import cKDTree
 
-from .judged_pages import DATA, JudgedPage, pages
+from .judged_pages import DATA, JudgedPage, pages, picture
 from .metrics import LONG_SIDE, Score, evaluate, read_svg, scaled, summarize
 from .rivals.plain_skeleton import pieces
 from .run_record import Figures
@@ -80,7 +80,7 @@ def main(argv: Sequence[str] | None = None) -> Figures:
     rows = []
     if arguments.cases:
         for path in sorted(arguments.cases.glob("*.png")):
-            image = cv2.imread(str(path), cv2.IMREAD_GRAYSCALE)
+            image = picture(path)
             truth = path.with_suffix(".svg")
             rows.append(
                 _row(path.stem, [(image, read_svg(truth) if truth.exists() else None)], without)
@@ -127,7 +127,7 @@ def _row(
         seconds.append(took)
         if truth is None:
             continue
-        strokes = scaled(polylines(graph, route(graph, SETTINGS)), image.shape[::-1])
+        strokes = scaled(polylines(graph, route(graph, SETTINGS)), _size(image))
         scores.append(evaluate(strokes, truth))
         dense.append(dense_chamfer(strokes, truth))
         length.append(abs(scores[-1].length / max(scores[-1].true_length, 1e-9) - 1))
@@ -183,7 +183,7 @@ def stage(
                 evidence, settings, graph, start=MEASURED, until=ROUTED, without=without
             )
             strokes = polylines(*routed(graph, evidence, settings, route, without))
-            own.append(evaluate(scaled(strokes, scan.ink.shape[::-1]), truth))
+            own.append(evaluate(scaled(strokes, _size(scan.ink)), truth))
     figures = {"crossings": "found", "branching": "3+ found", "precision": "precision"}
     figures |= {"chamfer": "Chamfer", "density": "r_SD", "f1": "F1"}
     rows = []
@@ -216,6 +216,11 @@ def polylines(graph: PlanarGraph, routing: Routing) -> list[Array]:
         parts = [graph.half_branch(int(h)) for h in halves]
         strokes.append(np.concatenate([parts[0], *(p[1:] for p in parts[1:])]))
     return strokes
+
+
+def _size(image: Array) -> tuple[float, float]:
+    height, width = image.shape
+    return width, height
 
 
 def draw(strokes: Sequence[Array], side: int = int(LONG_SIDE), scale: int = 8) -> Array:

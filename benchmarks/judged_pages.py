@@ -32,6 +32,20 @@ class JudgedPage:
         return read_svg(self.truth)
 
 
+def picture(path: Path) -> np.ndarray:
+    """A picture in grey, (H, W) uint8.
+
+    Raises:
+        ValueError: there is none, or none that can be read.
+    """
+    import cv2
+
+    found = cv2.imread(str(path), cv2.IMREAD_GRAYSCALE)
+    if found is None:
+        raise ValueError(f"{path} is no picture.")
+    return found
+
+
 def pages(folder: Path = DATA) -> list[JudgedPage]:
     """All pages of a folder that has a `manifest.json`, by name.
 

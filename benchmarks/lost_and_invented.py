@@ -13,23 +13,25 @@ counts as lost.
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from multiprocessing import get_context
 from pathlib import Path
+from typing import TypeVar
 
 import cv2
 import numpy as np
 from involute.engine import Drawing, vectorize
 from involute.engine.formats.flatten import outline
 
-from .judged_pages import DATA, pages
+from .judged_pages import DATA, pages, picture
 from .quality import one_thread
 from .run_record import Figures
 from .tables import markdown
 
 Array = np.ndarray
+Work = TypeVar("Work")
 
 _INK, _TRACE = 0.5, 0.12  # of full ink: what is clear ink, and what may be some
 _SPECK = 5  # px of area; less is dust
@@ -84,7 +86,7 @@ def ink_of(gray: Array) -> Array:
     page = (255.0 - gray if dark_page else gray).astype(np.float32)
     side = max(5, min(page.shape) // 48 | 1)  # of a quarter of the page: a twelfth of its side
     small = cv2.resize(page, None, fx=0.25, fy=0.25, interpolation=cv2.INTER_AREA)
-    small = cv2.copyMakeBorder(small, *[side] * 4, cv2.BORDER_REFLECT)
+    small = cv2.copyMakeBorder(small, side, side, side, side, cv2.BORDER_REFLECT)
     paper = cv2.morphologyEx(small, cv2.MORPH_CLOSE, np.ones((side, side), np.uint8))
     paper = cv2.GaussianBlur(paper, (0, 0), side / 2)[side:-side, side:-side]
     paper = cv2.resize(paper, page.shape[::-1], interpolation=cv2.INTER_LINEAR)
@@ -127,12 +129,11 @@ def _pixels(line: Array, shape: tuple[int, ...]) -> tuple[Array, Array]:
 
 def judged(path: Path) -> Fidelity:
     """Trace a page as a user does and compare it with its own ink."""
-    gray = cv2.imread(str(path), cv2.IMREAD_GRAYSCALE)
-    return fidelity(ink_of(gray), vectorize(path))
+    return fidelity(ink_of(picture(path)), vectorize(path))
 
 
 def side_by_side(
-    work: dict[str, Sequence[object]], judge: Callable[[object], Fidelity], jobs: int
+    work: Mapping[str, Sequence[Work]], judge: Callable[[Work], Fidelity], jobs: int
 ) -> Figures:
     """Judge all that a row holds, in parallel; print the rows as a table."""
     with ProcessPoolExecutor(jobs, get_context("spawn"), one_thread) as pool:

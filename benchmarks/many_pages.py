@@ -170,7 +170,9 @@ def _page(drawings: list[list[Array]], rng: np.random.Generator) -> Array:
     ink = np.zeros((SIZE, SIZE), np.uint8)
     width = int(rng.integers(2, 8))
     for points in strokes:
-        cv2.polylines(ink, [np.int32(np.round(points * 16))], False, 255, width, cv2.LINE_AA, 4)
+        cv2.polylines(
+            ink, [np.round(points * 16).astype(np.int32)], False, 255, width, cv2.LINE_AA, 4
+        )
     share = cv2.GaussianBlur(ink, (0, 0), rng.uniform(0.5, 1.0))[..., None] / 255
     if rng.random() < 0.3:  # the grain of pencil and chalk
         grain = cv2.GaussianBlur(rng.normal(0, 1, ink.shape).astype(np.float32), (0, 0), 0.8)

@@ -5,15 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Any
 
 import numpy as np
 
+from .judged_pages import picture
 from .metrics import read_svg, scaled
 
 Method = Callable[[Path], list[np.ndarray]]
 
 
-def _involute(**settings: object) -> Method:
+def _involute(**settings: Any) -> Method:
     def trace(image: Path) -> list[np.ndarray]:
         from involute.engine import Settings, vectorize
 
@@ -30,10 +32,8 @@ def _rival(module: str) -> Method:
     def trace(image: Path) -> list[np.ndarray]:
         import importlib
 
-        import cv2
-
         strokes = importlib.import_module(f"benchmarks.rivals.{module}").trace(image)
-        height, width = cv2.imread(str(image), cv2.IMREAD_GRAYSCALE).shape
+        height, width = picture(image).shape
         return scaled(strokes, (width, height))
 
     return trace

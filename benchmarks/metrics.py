@@ -21,12 +21,13 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from os import PathLike
 from xml.etree import ElementTree
 
 import numpy as np
 import shapely
-from scipy.sparse import coo_matrix
+from scipy.sparse import coo_matrix, csr_matrix
 from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
@@ -300,7 +301,7 @@ def chamfer(pred: Strokes, true: Strokes) -> float:
     return float(there + back) / 2
 
 
-def _coverage(strokes: Strokes, others: Strokes) -> Array:
+def _coverage(strokes: Strokes, others: Strokes) -> csr_matrix:
     """(S, T): the share of each stroke that runs within `_NEAR` of each other one (sparse)."""
     shape = (len(strokes), len(others))
     if strokes.tree is None or others.tree is None:
@@ -352,11 +353,7 @@ class _Segments:
     """All straight pieces of the strokes, findable by place."""
 
     def __init__(self, strokes: Strokes) -> None:
-        lines = [
-            # Nearly straight runs are one segment: far fewer pairs to test, nothing moves.
-            shapely.get_coordinates(shapely.LineString(line).simplify(0.02))
-            for line in strokes.polylines
-        ]
+        lines = [_straightened(line) for line in strokes.polylines]
         arcs = [_arc_length(line) for line in lines]
         self.strokes = strokes
         self.stroke = np.repeat(np.arange(len(lines)), [len(line) - 1 for line in lines])
@@ -403,6 +400,17 @@ class _Segments:
         order = np.lexsort((distance, self.stroke[seg], tip))
         key = (tip * (len(strokes) + 1) + self.stroke[seg])[order]
         return foot[order][np.unique(key, return_index=True)[1]]
+
+
+def _straightened(line: Array) -> Array:
+    """A polyline with its nearly straight runs as one segment: far fewer pairs to test, nothing
+    moves. Where it turns back, it stays as it is: over there and back is no straight run."""
+    step = np.diff(line, axis=0)
+    back = 1 + np.flatnonzero((step[1:] * step[:-1]).sum(1) < 0)
+    cuts = [0, *back.tolist(), len(line) - 1]
+    runs = [shapely.LineString(line[a : b + 1]).simplify(0.02) for a, b in pairwise(cuts)]
+    corners = [shapely.get_coordinates(run) for run in runs]
+    return np.concatenate([corners[0], *(run[1:] for run in corners[1:])])
 
 
 def merged(points: Array, radius: float = _MERGE) -> Array:
@@ -453,6 +461,7 @@ class _Branches:
         self.degree = np.bincount(self.junction[first], minlength=len(junctions))
 
     def _find(self, strokes: Strokes, junctions: Array) -> None:
+        assert strokes.tree is not None
         near = strokes.tree.query_ball_point(junctions, _HOLD)
         junction = np.repeat(np.arange(len(junctions)), [len(hits) for hits in near])
         sample = np.concatenate([np.asarray(hits, int) for hits in near])

@@ -89,7 +89,13 @@ def page(
         for points in lines:
             drawn = np.zeros((SIZE, SIZE), np.uint8)
             cv2.polylines(
-                drawn, [np.int32(np.round(points * 16))], False, 255, int(pen), cv2.LINE_AA, 4
+                drawn,
+                [np.round(points * 16).astype(np.int32)],
+                False,
+                255,
+                int(pen),
+                cv2.LINE_AA,
+                4,
             )
             pressure = 1.0 if target is black else np.clip(rng.normal(1, 0.2), 0.3, 1.3)
             np.maximum(target, drawn / np.float32(255) * np.float32(pressure), out=target)

@@ -50,11 +50,10 @@ _TITLES = {
 }
 # Of what a column shows, the best is that with the least of this.
 _BEST: dict[str, Callable[[float], float]] = {
-    "chamfer": abs,
-    "length_diff": abs,
+    **dict.fromkeys(("chamfer", "length_diff", "false_joins"), abs),
+    **dict.fromkeys(("crossings", "precision", "f1", "routing"), lambda share: -share),
     "density": lambda ratio: abs(math.log(ratio)),
-    "false_joins": abs,
-} | dict.fromkeys(("crossings", "precision", "f1", "routing"), lambda share: -share)
+}
 
 
 @dataclass(frozen=True)

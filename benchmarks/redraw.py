@@ -20,6 +20,7 @@ from dataclasses import replace
 from pathlib import Path
 from statistics import median
 from types import ModuleType, SimpleNamespace
+from typing import Any
 
 import bpy
 import gpu
@@ -38,7 +39,10 @@ def main(archive: str, scan: str, result: str = "") -> None:
     clock = _Clock()
     view = bpy.context.window_manager.involute_view
     shown = _module("operators.view.view_state").shown_in(bpy.context)
-    rows = {"junctions": len(shown.table), "strokes": len(shown.trace.drawing.strokes)}
+    rows: dict[str, Any] = {
+        "junctions": len(shown.table),
+        "strokes": len(shown.trace.drawing.strokes),
+    }
     view.show_overlay = False
     rows["without the overlay"] = {"redraw": _redraws()}
     view.show_overlay = True
@@ -133,7 +137,7 @@ class _Clock:
         return run
 
     def _with_timed_batches(self, kept: Callable) -> Callable:
-        def timed(made: object) -> object:
+        def timed(made: Any) -> Any:
             if isinstance(made, gpu.types.GPUBatch):
                 return SimpleNamespace(draw=self._timed("opengl", made.draw))
             if isinstance(made, (list, tuple)):

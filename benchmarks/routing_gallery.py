@@ -28,7 +28,7 @@ def main(argv: Sequence[str] | None = None) -> None:
     parser.add_argument("scans", type=Path, nargs="+")
     parser.add_argument("-o", "--out", type=Path, required=True)
     args = parser.parse_args(argv)
-    rows = [row(cv2.imread(str(scan))) for scan in args.scans]
+    rows = [row(np.asarray(cv2.imread(str(scan)))) for scan in args.scans]
     half = (len(rows) + 1) // 2
     rows += [np.full_like(rows[0], 255)] * (2 * half - len(rows))
     picture = np.hstack([np.vstack(rows[:half]), np.vstack(rows[half:])])
@@ -54,7 +54,9 @@ def coloured(drawing: Drawing) -> Array:
     image = np.full((height, width, 3), 255, np.uint8)
     for stroke in drawing.strokes:
         hue = int(stroke.branches.min() >> 1) * 67 % 180
-        color = cv2.cvtColor(np.uint8([[[hue, 230, 190]]]), cv2.COLOR_HSV2BGR)[0, 0].tolist()
+        color = cv2.cvtColor(np.array([[[hue, 230, 190]]], np.uint8), cv2.COLOR_HSV2BGR)[
+            0, 0
+        ].tolist()
         points = np.round((stroke.points - 0.5) * 16).astype(np.int32)
         cv2.polylines(image, [points], stroke.closed, color, 2, cv2.LINE_AA, 4)
     return image

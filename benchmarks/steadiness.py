@@ -20,7 +20,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 from involute.command import trace_sequence
-from involute.engine import Drawing, Settings
+from involute.engine import Drawing, InvoluteError, Settings
 from involute.engine.arrays.ragged import along, arc
 from involute.engine.sequence import number_frames
 from involute.engine.sequence.stroke_matching import match_strokes, sample_strokes
@@ -95,10 +95,19 @@ def main(argv: Sequence[str] | None = None) -> Figures:
                 frames = trace_sequence(
                     number_frames(paths), jobs=options.jobs, parts=parts, follow=follow
                 )
-                labels = [label(d, t) for (_, d), t in zip(frames, truths, strict=True)]
+                drawings = map(_whole, frames)
+                labels = [label(d, t) for d, t in zip(drawings, truths, strict=True)]
                 for a, b in pairwise(labels):
                     tally.add(*_common(a, b))
     return _told({"traced": traced, "traced, followed": followed})
+
+
+def _whole(frame: tuple[int, Drawing | InvoluteError]) -> Drawing:
+    """The drawing of a frame; a frame that failed ends the benchmark."""
+    _, drawing = frame
+    if isinstance(drawing, InvoluteError):
+        raise drawing
+    return drawing
 
 
 def _told(tallies: dict[str, Tally]) -> Figures:
@@ -138,7 +147,7 @@ def render(strokes: Sequence[Array], rng: np.random.Generator) -> Array:
     """Ink on paper, (SIZE, SIZE) uint8."""
     page = np.full((SIZE, SIZE), 245, np.uint8)
     for points in strokes:
-        cv2.polylines(page, [np.int32(np.round(points * 16))], False, 30, 3, cv2.LINE_AA, 4)
+        cv2.polylines(page, [np.round(points * 16).astype(np.int32)], False, 30, 3, cv2.LINE_AA, 4)
     noise = rng.normal(0, 3, page.shape)
     return np.clip(cv2.GaussianBlur(page, (0, 0), 0.6) + noise, 0, 255).astype(np.uint8)
 
@@ -187,7 +196,7 @@ def _real(folder: Path, jobs: int) -> Figures:
         for follow in (False, True):
             tally = tallies["traced, followed" if follow else "traced"] = Tally()
             drawings = trace_sequence(frames, Settings(), jobs=jobs, parts=parts, follow=follow)
-            for (_, a), (_, b) in pairwise(drawings):
+            for a, b in pairwise(map(_whole, drawings)):
                 _count_matched(a, b, tally)
     return _told(tallies)
 

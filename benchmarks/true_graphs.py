@@ -102,7 +102,8 @@ def decided(truths: Sequence[Truth], scorer: Scorer) -> Verdict:
 def asked_again(truths: Sequence[Truth], scorer: Scorer, share: float) -> tuple[float, float]:
     """Errors per junction at the junctions that are not fixed, without and with the fixed ones."""
     rng = np.random.default_rng(0)
-    before, after = [], []
+    before: list[Array] = []
+    after: list[Array] = []
     for graph, partner in truths:
         pairs = candidate_pairs(graph)
         listed = np.flatnonzero(graph.degrees[graph.junctions] <= MAX_LISTED_DEGREE)
@@ -168,11 +169,12 @@ def speed(truths: Sequence[Truth], scorers: dict[str, Scorer]) -> str:
 
 def crowd(truths: Sequence[Truth], halves: int) -> PlanarGraph:
     """Drawings side by side, over and over, until a page has so many half-branches."""
-    graphs, count = [], 0
+    graphs: list[PlanarGraph] = []
+    count = 0
     while count < halves:
         graphs.append(truths[len(graphs) % len(truths)][0])
         count += 2 * graphs[-1].branch_count
-    moved = [np.float32([1100 * k, 0]) for k in range(len(graphs))]
+    moved = [np.array([1100 * k, 0], np.float32) for k in range(len(graphs))]
     vertex = np.cumsum([0] + [len(g.vertices) for g in graphs])
     point = np.cumsum([0] + [len(g.points) for g in graphs])
     together = list(zip(graphs, moved, vertex, point, strict=False))

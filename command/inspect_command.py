@@ -11,6 +11,7 @@ from ..engine.settings import Settings
 
 if TYPE_CHECKING:
     from ..engine.drawing import Drawing
+    from ..engine.values import Stroke
 
 
 def about(path: Path) -> Iterator[str]:
@@ -29,12 +30,17 @@ def _about_drawing(drawing: Drawing) -> Iterator[str]:
 
     widths = np.concatenate([s.widths for s in drawing.strokes] or [np.zeros(1)])
     low, middle, high = np.percentile(widths, (5, 50, 95))
-    colors = {stroke.color for stroke in drawing.strokes}
+    by_ink: dict[tuple[int, int, int], list[Stroke]] = {}
+    for stroke in drawing.strokes:
+        by_ink.setdefault(stroke.color, []).append(stroke)
     yield f"size       {drawing.size[0]} x {drawing.size[1]} px"
     yield f"strokes    {len(drawing.strokes)}, {sum(s.closed for s in drawing.strokes)} closed"
     yield f"points     {sum(len(s.points) for s in drawing.strokes)}"
     yield f"widths     {middle:.1f} px (5 % under {low:.1f}, 5 % over {high:.1f})"
-    yield f"inks       {len(colors)}"
+    yield f"inks       {len(by_ink)}"
+    for color, strokes in sorted(by_ink.items(), key=lambda item: -len(item[1])):
+        pen = float(np.median(np.concatenate([stroke.widths for stroke in strokes])))
+        yield f"           #{bytes(color).hex()}  pen {pen:.1f} px, {len(strokes)} strokes"
     yield f"fills      {len(drawing.fills)}"
     if drawing.fidelity:
         lost, invented = drawing.fidelity.lost, drawing.fidelity.invented

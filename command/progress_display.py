@@ -63,7 +63,7 @@ class ProgressDisplay:
             self._line(f"{name}: {figures(outcome)}{_where(outputs)}")
             if self._stages:
                 self._details(outcome.report)
-        if not outcome.report.get("strokes", 1):
+        if not outcome.report.get("strokes", 1) and not outcome.report.get("warnings"):
             self.warning(f"{name}: warning: there are no lines; the drawing is empty.")
         for sentence in outcome.report.get("warnings", ()):
             self.warning(f"{name}: warning: {sentence}")

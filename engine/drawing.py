@@ -145,6 +145,7 @@ class Drawing:
 
         if self.graph.branch_count == 0:
             return ()
+        assert self.graph.widths is not None, "a drawing's graph is measured"
         return closed_regions(self.graph, 4.0 * float(np.median(self.graph.widths)) ** 2)
 
     @property
@@ -265,9 +266,7 @@ class Drawing:
         """
         page = Page.of(self.graph, settings)
         strokes = tuple(build(page, walk(self.routing.partner)))
-        drawing = replace(self, strokes=strokes, settings=settings)
-        vars(drawing)["_page"] = page
-        return drawing
+        return replace(self, strokes=strokes, settings=settings, page=page)
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write the drawing; the suffix says how (.json keeps everything)."""

@@ -45,10 +45,12 @@ class Fidelity:
     @staticmethod
     def from_dict(values: dict[str, Any]) -> Fidelity:
         """What `as_dict` gave, or a file made of it."""
-        places = (
-            tuple(tuple(map(float, b)) for b in values[k]) for k in ("lost_at", "invented_at")
-        )
-        return Fidelity(float(values["lost"]), float(values["invented"]), *places)
+
+        def places(name: str) -> tuple[Box, ...]:
+            return tuple((float(x), float(y), float(w), float(h)) for x, y, w, h in values[name])
+
+        lost, invented = float(values["lost"]), float(values["invented"])
+        return Fidelity(lost, invented, places("lost_at"), places("invented_at"))
 
 
 def fidelity(
@@ -127,6 +129,7 @@ def _around(stroke: Stroke) -> Array:
 def _curve(stroke: Stroke) -> Array:
     """Points along a Bezier stroke, eight to a segment."""
     points, handles = stroke.points, stroke.handles
+    assert handles is not None, "only a Bezier stroke is a curve"
     if stroke.closed:
         points = np.vstack([points, points[:1]])
         handles = np.concatenate([handles, handles[:1]])
@@ -157,7 +160,7 @@ def _drawn(
 
 def _fixed(points: Array) -> Array:
     """Pixels in OpenCV's fixed numbers, its pixel centres whole."""
-    return np.int32(np.round(points * (1 << _BITS)))
+    return np.round(points * (1 << _BITS)).astype(np.int32)
 
 
 def _every_pixel(line: Array) -> Array:
@@ -176,6 +179,8 @@ def _places(wrong: Array, scale: float) -> tuple[Box, ...]:
     count, label, stats, _ = cv2.connectedComponentsWithStats(near)
     much = np.bincount(label[wrong], minlength=count)
     order = np.argsort(-much, kind="stable")[:_PLACES]
-    return tuple(
-        tuple(round(float(v) * scale, 1) for v in stats[k, :4]) for k in order if much[k] > 0
-    )
+    boxes = []
+    for piece in order[much[order] > 0].tolist():
+        x, y, width, height = (round(float(v) * scale, 1) for v in stats[piece, :4])
+        boxes.append((x, y, width, height))
+    return tuple(boxes)

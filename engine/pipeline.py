@@ -11,8 +11,6 @@ from collections.abc import Callable
 from os import PathLike
 from time import perf_counter
 
-import numpy as np
-
 from .centerline import provider_for
 from .centerline.mending import mended
 from .drawing import Drawing
@@ -27,10 +25,11 @@ from .scan.registration import set_aside
 from .scan.screentone import without_screentone
 from .scan.wide_lines import find_wide_lines
 from .settings import Settings
+from .values import Array
 from .wide_pens import look_again
 
 Progress = Callable[[str, float], None]
-Source = str | PathLike[str] | np.ndarray
+Source = str | PathLike[str] | Array
 
 # What each stage takes of the whole time, for a progress bar that moves evenly.
 _SHARES = {

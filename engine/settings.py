@@ -150,6 +150,13 @@ class Settings:
         tip="Don't trace what lies beyond the sheet in a photograph: cloth, a desk, a finger",
         off="trace what lies beyond the sheet in a photograph too",
     )
+    rules: bool = _switch(
+        True,
+        group=WHAT,
+        label="Leave Out Rules",
+        tip="Don't trace the printed lines of ruled and squared paper",
+        off="trace the printed lines of ruled and squared paper too",
+    )
     screentone: bool = _switch(
         True,
         group=WHAT,
@@ -322,7 +329,7 @@ def _check(name: str, about: About, value: Any) -> None:
         kind, what = (Integral, "whole number") if about.kind is int else (Real, "number")
         if isinstance(value, bool) or not isinstance(value, kind):
             raise InvoluteError(f"Setting {name} must be a {what}.")
-        if not about.low <= value <= about.high:
+        if not about.low <= value <= about.high:  # type: ignore[operator]  # a Real has an order
             raise InvoluteError(
                 f"Setting {name} must lie between {about.low:g} and {about.high:g}."
             )

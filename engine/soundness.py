@@ -50,11 +50,21 @@ def check_drawing(drawing: Drawing) -> None:
             _table(ring, "f", (None, 2), f"the outline of fill {number}")
             _need(len(ring) > 0, f"an outline of fill {number} has no points")
             _within(ring, _FARTHEST, f"the outline of fill {number}")
+    _check_fidelity(drawing)
     if drawing.region_colors is not None:
         _table(drawing.region_colors, "u", (None, 3), "the colors of its regions")
         if drawing.settings.regions:
             count = len(drawing.regions)
             _need(len(drawing.region_colors) == count, "the colors of its regions don't fit them")
+
+
+def _check_fidelity(drawing: Drawing) -> None:
+    found = drawing.fidelity
+    if found is None:
+        return
+    _need(0 <= found.lost <= 1 and 0 <= found.invented <= 1, "its fidelity is no share")
+    boxes = [side for box in (*found.lost_at, *found.invented_at) for side in box]
+    _need(all(abs(side) <= _FARTHEST for side in boxes), "the places of its fidelity can't be")
 
 
 def check_graph(graph: PlanarGraph) -> None:
@@ -209,4 +219,5 @@ def _numbered(values: Array, count: int, what: str) -> None:
 
 
 def _is_number(value: object) -> bool:
-    return type(value) in (int, float) and isfinite(value)
+    # A bool is an int to isinstance, and no number here.
+    return isinstance(value, (int, float)) and type(value) is not bool and isfinite(value)

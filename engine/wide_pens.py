@@ -99,6 +99,6 @@ def _drawn(graph: PlanarGraph, scale: float, near: Array) -> Array:
     """(H, W) float32 the branches of a coarse graph as crests of the fine map."""
     drawn = np.zeros(near.shape, np.uint8)
     for branch in range(graph.branch_count):
-        points = np.int32(np.round((graph.branch(branch) * scale - 0.5) * (1 << _BITS)))
+        points = np.round((graph.branch(branch) * scale - 0.5) * (1 << _BITS)).astype(np.int32)
         cv2.polylines(drawn, [points], False, 255, 2, cv2.LINE_AA, _BITS)
     return drawn.astype(np.float32) / 255

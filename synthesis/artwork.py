@@ -42,7 +42,7 @@ def read_svg(text: str, tolerance: float) -> list[Shape]:
         ElementTree.ParseError, ValueError: not SVG, or a path that makes no sense.
     """
     root = ElementTree.fromstring(text)
-    by_id = {e.get("id"): e for e in root.iter() if e.get("id")}
+    by_id = {name: e for e in root.iter() if (name := e.get("id"))}
     style = {"fill": "black", "stroke": "none", "stroke-width": "1"}
     return list(_walk(root, np.eye(3), style, by_id, tolerance))
 

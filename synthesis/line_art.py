@@ -332,4 +332,4 @@ def invented(rng: Rng, size: int) -> tuple[Strokes, float]:
     turn = random_matrix(rng, 1.0)
     turn /= max(1.0, np.linalg.norm(turn, 2))
     center = np.full(2, size / 2)
-    return transform(strokes, turn, center - turn @ center), pen * np.linalg.norm(turn, -2)
+    return transform(strokes, turn, center - turn @ center), pen * float(np.linalg.norm(turn, -2))

@@ -357,7 +357,7 @@ def draw(
         turn = rng.uniform(0, np.pi)
         across = np.abs(samples.tangent @ (-np.sin(turn), np.cos(turn)))
         half *= np.hypot(across, 1 - medium.nib) * rng.uniform(0.9, 1.2)
-    left = 1.0
+    left: Array | float = 1.0
     if rng.random() < medium.skip:
         left, thinner = _skips(rng, samples)
         half = half * thinner
@@ -374,7 +374,7 @@ def draw(
     tooth = noise(rng, str(rng.choice(medium.tooth)), size)
     edge_noise = noise(rng, str(rng.choice(["grain", "tooth", "rough"])), size)
     flow = density * (1 + fade * press) * left
-    ink = np.zeros((size, size), np.float32)
+    ink: Array = np.zeros((size, size), np.float32)
     for layer in layers:
         ids = np.flatnonzero(layer)
         if not len(ids):

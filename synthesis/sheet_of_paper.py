@@ -125,7 +125,8 @@ def scan(rng: Rng, page: Array) -> Array:
     if rng.random() < 0.45:
         quality = int(rng.uniform(30, 95))
         ok, data = cv2.imencode(".jpg", page.astype(np.uint8), [cv2.IMWRITE_JPEG_QUALITY, quality])
-        page = cv2.imdecode(data, cv2.IMREAD_GRAYSCALE) if ok else page
+        if ok:
+            page = np.asarray(cv2.imdecode(data, cv2.IMREAD_GRAYSCALE))
     return np.round(page).astype(np.float32) / 255
 
 

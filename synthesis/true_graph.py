@@ -381,7 +381,7 @@ def dissolve(
         chains.append(chain)
 
     new_of = np.full(len(at), -1)
-    points, source, new_ends = [], [], []
+    points, source, tips = [], [], []
     for number, chain in enumerate(chains):
         parts = [(lines[h >> 1], sources[h >> 1]) for h in chain]
         parts = [
@@ -389,13 +389,12 @@ def dissolve(
         ]
         points.append(np.concatenate([parts[0][0]] + [p[1:] for p, _ in parts[1:]]))
         source.append(np.concatenate([parts[0][1]] + [s[1:] for _, s in parts[1:]]))
-        new_ends.append((at[chain[0]], at[chain[-1] ^ 1]))
+        tips.append((at[chain[0]], at[chain[-1] ^ 1]))
         new_of[chain[0]], new_of[chain[-1] ^ 1] = 2 * number, 2 * number + 1
     old_of = np.empty(2 * len(chains), int)
     old_of[new_of[new_of >= 0]] = np.flatnonzero(new_of >= 0)
     new_partner = new_of[partner[old_of]]
-    new_ends = np.array(new_ends)
-    used_vertices, compact = np.unique(new_ends, return_inverse=True)
+    used_vertices, compact = np.unique(np.array(tips), return_inverse=True)
     new_ends = compact.reshape(-1, 2)
     # A circle: its two halves meet at a vertex of degree 2 and continue each other.
     alone = (new_ends[:, 0] == new_ends[:, 1]) & (

@@ -30,9 +30,8 @@ def dust(rng: Rng, ink: Array) -> Array:
     if rng.random() < 0.5:
         where = where * cv2.GaussianBlur(ink, (0, 0), rng.uniform(4, 15))
     specks = rng.random(ink.shape, np.float32) < rng.uniform(0.002, 0.03) * where
-    soft = cv2.GaussianBlur(
-        specks * rng.uniform(0.2, 1, ink.shape).astype(np.float32), (0, 0), rng.uniform(0.4, 1.1)
-    )
+    spots = specks.astype(np.float32) * rng.uniform(0.2, 1, ink.shape).astype(np.float32)
+    soft = cv2.GaussianBlur(spots, (0, 0), rng.uniform(0.4, 1.1))
     return np.clip(soft * rng.uniform(0.5, 3), 0, rng.uniform(0.2, 0.8))
 
 

@@ -60,7 +60,7 @@ def main(argv: list[str] | None = None) -> int:
 
 def in_this_environment(seed: int) -> tuple[bool, str]:
     _as_package()
-    checks = ["ruff", "check", "."], ["ruff", "format", "--check", "."]
+    checks = ["ruff", "check", "."], ["ruff", "format", "--check", "."], ["mypy"]
     untidy = [" ".join(c[:2]) for c in checks if _call([sys.executable, "-m", *c])]
     passed, closing = _pytest(
         Path(sys.executable), "tests", _seeded(seed), INVOLUTE_ZIP=_extension()

@@ -22,7 +22,9 @@ _UNKNOWN = "not by an exporter of this repository"
 
 def note_run(folder: Path, options: argparse.Namespace, **more: object) -> None:
     """Write config.json of a run: its options, the commit, the data, the weights it began with."""
-    asked = {k: v if isinstance(v, (int, float)) else str(v) for k, v in vars(options).items()}
+    asked: dict[str, Any] = {
+        k: v if isinstance(v, (int, float)) else str(v) for k, v in vars(options).items()
+    }
     asked |= {"commit": commit(), "data_sha256": data_digest(options.data)}
     parent = getattr(options, "start", None) or getattr(options, "start_from", None)
     if parent:

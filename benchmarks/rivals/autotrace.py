@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 from os import PathLike
+from pathlib import Path
+from typing import Any
 
 import cv2
 import numpy as np
+
+from ..judged_pages import picture
 
 Array = np.ndarray
 
@@ -14,16 +18,17 @@ def trace(path: str | PathLike[str]) -> list[Array]:
     """The strokes of a scan, in px."""
     from autotrace import Bitmap, Color, TraceOptions
 
-    grey = cv2.imread(str(path), cv2.IMREAD_GRAYSCALE)
+    grey = picture(Path(path))
     # It takes every shade for a region of its own; ink and paper are told apart for it.
     _, page = cv2.threshold(grey, 0, 255, cv2.THRESH_BINARY | cv2.THRESH_OTSU)
     options = TraceOptions(centerline=True, background_color=Color(255, 255, 255))
-    vector = Bitmap(cv2.cvtColor(page, cv2.COLOR_GRAY2RGB)).trace(options=options)
+    colored: Any = cv2.cvtColor(page, cv2.COLOR_GRAY2RGB)
+    vector = Bitmap(colored).trace(options=options)
     # Its y axis points up, and starts half a pixel lower.
-    return [_line(p) * (1, -1) + (0, grey.shape[0] - 0.5) for p in vector.paths if len(p)]
+    return [_line(p) * (1, -1) + np.array([0, grey.shape[0] - 0.5]) for p in vector.paths if len(p)]
 
 
-def _line(path: object) -> Array:
+def _line(path: Any) -> Array:
     """The points of a path of splines, about 1 px apart."""
     parts = []
     for spline in path.splines:

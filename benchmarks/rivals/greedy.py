@@ -8,12 +8,14 @@ method with a better idea has to beat.
 from __future__ import annotations
 
 from os import PathLike
+from pathlib import Path
 
 import cv2
 import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
+from ..judged_pages import picture
 from .plain_skeleton import Pieces, pieces, strokes
 
 Array = np.ndarray
@@ -24,8 +26,7 @@ _STRAIGHT = np.cos(np.radians(60))
 
 def trace(path: str | PathLike[str]) -> list[Array]:
     """The strokes of a scan, in px."""
-    grey = cv2.imread(str(path), cv2.IMREAD_GRAYSCALE)
-    _, ink = cv2.threshold(grey, 0, 255, cv2.THRESH_BINARY_INV | cv2.THRESH_OTSU)
+    _, ink = cv2.threshold(picture(Path(path)), 0, 255, cv2.THRESH_BINARY_INV | cv2.THRESH_OTSU)
     thin = cv2.ximgproc.thinning(ink, thinningType=cv2.ximgproc.THINNING_ZHANGSUEN) > 0
     if not thin.any():
         return []
@@ -42,7 +43,7 @@ def straightest(graph: Pieces) -> Array:
         line = graph.paths[half >> 1][:: -1 if half & 1 else 1]
         near = np.hypot(*(line - line[0]).T) <= _LOOK
         # The last point before the branch leaves the circle for the first time.
-        away[half] = line[max(1, np.argmin(near) - 1) if not near.all() else -1] - line[0]
+        away[half] = line[max(1, int(np.argmin(near)) - 1) if not near.all() else -1] - line[0]
     away /= np.maximum(np.hypot(*away.T), 1e-9)[:, None]
 
     node = graph.ends.ravel()

@@ -29,7 +29,7 @@ _SMOOTH = 3  # points
 
 def trace(path: str | PathLike[str]) -> list[Array]:
     """The strokes of a scan, in px."""
-    color = cv2.imread(str(path), cv2.IMREAD_COLOR)
+    color = np.asarray(cv2.imread(str(path), cv2.IMREAD_COLOR))
     grey = cv2.medianBlur(cv2.cvtColor(color, cv2.COLOR_BGR2GRAY), 3)
     _, ink = cv2.threshold(grey, 0, 255, cv2.THRESH_BINARY_INV | cv2.THRESH_OTSU)
     if not ink.any():

@@ -21,9 +21,9 @@ def sample(image: Array, points: Array, beyond: int = cv2.BORDER_REPLICATE) -> A
     if count == 0:
         return np.zeros((*shape, *image.shape[2:]), image.dtype)
     rows = max(1, -(-count // _COLUMNS))
-    padded = np.zeros((rows * _COLUMNS, 2), np.float32) if rows > 1 else flat
+    padded: Array = np.zeros((rows * _COLUMNS, 2), np.float32) if rows > 1 else flat
     padded[:count] = flat
-    values = cv2.remap(
+    values = cv2.remap(  # type: ignore[call-overload]  # one map is enough
         np.ascontiguousarray(image),
         padded.reshape(rows, -1, 2),
         None,

@@ -60,7 +60,8 @@ def finer_pen(widths: Array) -> Array:
         return widths
     size = np.log(widths)
     split = best_split(size, np.ones(len(size)))
-    two = split is not None and split.high - split.low > np.log(_BROADER)
-    if not two or split.share < _OWN or split.between > _BETWEEN:
+    if split is None or split.high - split.low <= np.log(_BROADER):
+        return widths
+    if split.share < _OWN or split.between > _BETWEEN:
         return widths
     return widths[size <= split.level]

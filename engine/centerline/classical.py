@@ -63,15 +63,15 @@ def _dark(ink: Array, pen: float) -> Array:
     return dark
 
 
-def _ridge(dark: Array, shape: tuple[int, int]) -> Array:
+def _ridge(dark: Array, shape: tuple[int, ...]) -> Array:
     """The crest of the signed distance to the edge, as a ridge in [0, 1] of the given shape."""
     inside = depth(dark)
     outside = depth(1 - dark)
     sigma = _CREST * _FINE
     roof = cv2.GaussianBlur(inside - outside, (0, 0), sigma)
-    xx = cv2.filter2D(roof, -1, np.float32([[1, -2, 1]]))
-    yy = cv2.filter2D(roof, -1, np.float32([[1], [-2], [1]]))
-    xy = cv2.filter2D(roof, -1, np.float32([[1, 0, -1], [0, 0, 0], [-1, 0, 1]]) / 4)
+    xx = cv2.filter2D(roof, -1, np.array([[1, -2, 1]], np.float32))
+    yy = cv2.filter2D(roof, -1, np.array([[1], [-2], [1]], np.float32))
+    xy = cv2.filter2D(roof, -1, np.array([[1, 0, -1], [0, 0, 0], [-1, 0, 1]], np.float32) / 4)
     across = (xx + yy) / 2 - np.hypot((xx - yy) / 2, xy)  # the most negative curvature
     # Slopes of 1 that meet, smoothed, curve by twice the Gaussian's height.
     curvature = across * (-sigma * np.sqrt(np.pi / 2))

@@ -98,7 +98,7 @@ def _ridges_near(lost: _Pieces, scan: Scan) -> Array:
     height, width = scan.ink.shape
     margin = int(_CONTEXT * scan.pen_width) + 16
     # One look at boxes that overlap; the whole page where they are many.
-    cells = np.zeros((-(-height // margin), -(-width // margin)), np.uint8)
+    cells: Array = np.zeros((-(-height // margin), -(-width // margin)), np.uint8)
     for x, y, w, h in lost.stats[lost.chosen, :4]:
         cells[y // margin : (y + h) // margin + 1, x // margin : (x + w) // margin + 1] = 1
     cells = cv2.dilate(cells, np.ones((3, 3), np.uint8))
@@ -147,7 +147,7 @@ def _with_dots(found: Array, clear: Array, uncovered: Array, pen: float) -> Arra
     angle = 0.5 * np.arctan2(2 * xy, xx - yy)
     arm = np.maximum(long - wide, 1.0)[:, None] / 2 * np.stack([np.cos(angle), np.sin(angle)], 1)
     for k in np.flatnonzero(whole):
-        ends = np.int32(np.round((middle[k] + np.outer((-1, 1), arm[k])) * 16))
+        ends = np.round((middle[k] + np.outer((-1, 1), arm[k])) * 16).astype(np.int32)
         cv2.line(found, tuple(ends[0].tolist()), tuple(ends[1].tolist()), 1.0, 2, shift=4)
     return whole[label]
 
@@ -164,8 +164,8 @@ def _without_made_up(maps: LineMaps, crest: Array, scan: Scan) -> LineMaps:
     made_up = _long(bare, max(pens * scan.pen_width, least))
     if not len(made_up.chosen):
         return maps
-    gone = np.isin(made_up.label, made_up.chosen).astype(np.uint8)
-    gone = cv2.dilate(gone, np.ones((5, 5), np.uint8)) > 0
+    lines = np.isin(made_up.label, made_up.chosen).astype(np.uint8)
+    gone = cv2.dilate(lines, np.ones((5, 5), np.uint8)) > 0
     return replace(maps, centerline=np.where(gone, np.float32(0), maps.centerline))
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import torch
@@ -17,7 +18,7 @@ from torch import Tensor, nn
 from ..errors import InvoluteError
 
 
-def _fields(data: memoryview) -> Iterator[tuple[int, int | memoryview]]:
+def _fields(data: memoryview) -> Iterator[tuple[int, Any]]:
     """Number and value of each field of a protobuf message; fixed-width ones come as bytes."""
     at = 0
 
@@ -110,7 +111,7 @@ def _node(message: memoryview) -> _Node:
     return _Node(kind, inputs, outputs, attributes)
 
 
-class OnnxModule(nn.Module):
+class OnnxModule(nn.Module):  # type: ignore[misc]  # torch is no part of this environment
     """A network read from ONNX: one input, one output or more, of which a call gives the first."""
 
     def __init__(

@@ -73,7 +73,7 @@ def active_blocks(ink: Array) -> Array:
     """
     height, width = ink.shape
     rows, columns = -(-height // _CELL), -(-width // _CELL)
-    cells = np.zeros((rows, columns), np.uint8)
+    cells: Array = np.zeros((rows, columns), np.uint8)
     band = 32 * _CELL  # bands of rows keep the copies small
     for top in range(0, height, band):
         seen = cv2.blur(ink[top : top + band], (3, 3)) > _INK
@@ -92,7 +92,9 @@ def _cover(active: Array) -> list[tuple[int, int, int, int]]:
     A rectangle is cut in two where that leaves the least to look at, as long as its window is too
     large or cutting is cheaper than not.
     """
-    done, open_ = [], [(0, 0, *active.shape)]
+    height, width = active.shape
+    done: list[tuple[int, int, int, int]] = []
+    open_ = [(0, 0, height, width)]
     while open_:
         box = _trim(active, open_.pop())
         if box is None:

@@ -46,4 +46,4 @@ def region_colors(regions: Sequence[Region], graph: PlanarGraph, scan: Scan) -> 
 
 def _fixed(points: Array, scan: Scan) -> Array:
     """Working pixels in OpenCV's fixed numbers; its pixel centres are whole numbers."""
-    return np.int32(np.round((points / scan.scale - 0.5) * (1 << _BITS)))
+    return np.round((points / scan.scale - 0.5) * (1 << _BITS)).astype(np.int32)

@@ -76,7 +76,7 @@ def _areas(dark: Array, wide: float, widest: float, stroke: float) -> Array:
     count = int(owner.max()) + 1
     size = np.bincount(owner[painted], minlength=count)
     deepest = np.zeros(count, np.float32)
-    np.maximum.at(deepest, owner[core], depth[core])
+    np.maximum.at(deepest, owner[core].astype(np.int64), depth[core])
     middle = core & (depth >= cv2.dilate(depth, np.ones((3, 3), np.uint8)))
     crest = np.bincount(owner[middle], minlength=count)
     mean_depth = np.bincount(owner[middle], depth[middle], minlength=count) / np.maximum(crest, 1)
@@ -95,13 +95,14 @@ def _outlines(area: Array, soft: Array) -> list[Fill]:
     rings = _on_the_edge([c.reshape(-1, 2) for c in contours], soft)
     fills: list[Fill] = []
     for index, (_, _, child, parent) in enumerate(tree[0].tolist()):
-        if parent >= 0 or rings[index] is None:
+        outer = rings[index]
+        if parent >= 0 or outer is None:
             continue
         holes = []
         while child >= 0:
             holes.append(rings[child])
             child = tree[0][child][0]
-        fills.append((rings[index], *(hole for hole in holes if hole is not None)))
+        fills.append((outer, *(hole for hole in holes if hole is not None)))
     return fills
 
 
@@ -126,7 +127,7 @@ def _smooth(ring: Array) -> Array | None:
     """A ring without pixel steps, in few points; None when nothing is left of it."""
     if len(ring) < 8:
         return None
-    weights = np.float32([1, 4, 6, 4, 1]) / 16
+    weights = np.array([1, 4, 6, 4, 1], np.float32) / 16
     wrapped = np.concatenate([ring[-2:], ring, ring[:2]])
     even = np.stack([np.convolve(axis, weights, "valid") for axis in wrapped.T], 1)
     few = cv2.approxPolyDP(even.astype(np.float32)[:, None], _DETAIL, True)[:, 0]

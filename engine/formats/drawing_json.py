@@ -151,16 +151,20 @@ def _drawing(document: dict[str, Any]) -> Drawing:
         settings = Settings(**{k: v for k, v in document["settings"].items() if k in known})
     except InvoluteError as error:
         raise UnsoundError(str(error).rstrip(".")) from None
+
+    def tables(part: dict[str, Any]) -> dict[str, Any]:
+        return {name: unpack(packed) for name, packed in part.items()}
+
     routing = dict(document["routing"])
     alternatives = tuple(
         tuple(Alternative(tuple((a, b) for a, b in pairs), p) for pairs, p in ways)
         for ways in routing.pop("alternatives")
     )
     return Drawing(
-        graph=PlanarGraph(**{k: unpack(v) for k, v in document["graph"].items()}),
-        routing=Routing(**{k: unpack(v) for k, v in routing.items()}, alternatives=alternatives),
-        strokes=tuple(_strokes({k: unpack(v) for k, v in document["strokes"].items()})),
-        fills=tuple(_fills({k: unpack(v) for k, v in document["fills"].items()})),
+        graph=PlanarGraph(**tables(document["graph"])),
+        routing=Routing(**tables(routing), alternatives=alternatives),
+        strokes=tuple(_strokes(tables(document["strokes"]))),
+        fills=tuple(_fills(tables(document["fills"]))),
         size=(width, height),
         settings=settings,
         seconds=dict(document["seconds"]),

@@ -42,7 +42,7 @@ def render(drawing: Drawing, paper: Array | None = None, *, rings: bool = True) 
     zoom = min(1.0, _LONGEST / max(width, height))
     shape = (max(1, round(height * zoom)), max(1, round(width * zoom)))
     over = 2 if max(shape) <= 2048 else 1  # thin lines keep their width when drawn twice as large
-    canvas = np.full((shape[0] * over, shape[1] * over, 3), 255, np.uint8)
+    canvas: Array = np.full((shape[0] * over, shape[1] * over, 3), 255, np.uint8)
     if paper is not None:
         faded = cv2.resize(paper, canvas.shape[1::-1], interpolation=cv2.INTER_AREA)
         canvas = cv2.addWeighted(faded, 0.3, canvas, 0.7, 0)

@@ -128,6 +128,7 @@ def _polyline(points: Array) -> str:
 
 def _bezier(stroke: Stroke) -> str:
     anchors, handles = _repeat_first(stroke), stroke.handles
+    assert handles is not None, "only a Bezier stroke has such a path"
     if stroke.closed:
         handles = np.concatenate([handles, handles[:1]])
     segments = np.stack([handles[:-1, 1], handles[1:, 0], anchors[1:]], axis=1)

@@ -13,8 +13,7 @@ from functools import cache
 import numpy as np
 
 from .. import weights
-
-Array = np.ndarray
+from ..values import Array
 
 WEIGHTS = weights.FOLDER / "corners.npz"
 

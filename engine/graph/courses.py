@@ -42,7 +42,7 @@ class Courses:
     bend: Array
 
 
-def spoilt(graph: PlanarGraph, shape: tuple[int, int], reach: float) -> Array:
+def spoilt(graph: PlanarGraph, shape: tuple[int, ...], reach: float) -> Array:
     """(P,) bool: points nearer than `reach` px to a line that isn't their own course."""
     # A number per point that jumps between branches: far apart = not the same piece of line.
     place = np.arange(len(graph.points)) + 64 * owners(graph.offsets) + 64

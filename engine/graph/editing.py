@@ -7,13 +7,11 @@ locked, and a new branch the last one.
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..values import Alternative, Pair, PlanarGraph, Routing
-
-Array = np.ndarray
+from ..values import Alternative, Array, Pair, PlanarGraph, Routing
 
 NEAR = 1.0  # pen widths; so near a vertex, it is meant
 
@@ -99,7 +97,7 @@ def join_ends(graph: PlanarGraph, routing: Routing, a: int, b: int) -> tuple[Pla
 
 def _ordered(graph: PlanarGraph, order: Array) -> PlanarGraph:
     measured = {name: getattr(graph, name) for name in ("widths", "strength", "colors")}
-    taken = {name: None if v is None else v[order] for name, v in measured.items()}
+    taken: dict[str, Any] = {name: None if v is None else v[order] for name, v in measured.items()}
     return replace(graph, points=graph.points[order], **taken)
 
 

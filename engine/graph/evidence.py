@@ -42,7 +42,8 @@ class Evidence:
     @property
     def shape(self) -> tuple[int, int]:
         """Height and width of the page, px."""
-        return self.maps.centerline.shape
+        height, width = self.maps.centerline.shape
+        return height, width
 
     @cached_property
     def ridge(self) -> Ridge:

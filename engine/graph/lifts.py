@@ -15,13 +15,11 @@ import numpy as np
 
 from ..arrays.sampling import sample
 from ..settings import Settings
-from ..values import LineMaps, PlanarGraph, Scan
+from ..values import Array, LineMaps, PlanarGraph, Scan
 from .clues import available, clues
 from .evidence import Evidence
 from .nearby import near_pairs
 from .topology import join, lengths
-
-Array = np.ndarray
 
 ARM = 1.5  # pen widths of line on both sides that tell a corner
 LEAST_ARM = 4  # px
@@ -113,9 +111,9 @@ class _Course:
 
     def turn(self, place: Array, arm: int) -> Array:
         """(N,) the angle between the chords over `arm` points before and after, 0 to pi."""
-        arm = np.minimum(arm, np.maximum(self.room(place), 1))
-        a = self.points[place] - self.points[self.step(place, -arm)]
-        b = self.points[self.step(place, arm)] - self.points[place]
+        reach = np.minimum(arm, np.maximum(self.room(place), 1))
+        a = self.points[place] - self.points[self.step(place, -reach)]
+        b = self.points[self.step(place, reach)] - self.points[place]
         return np.abs(np.arctan2(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0], (a * b).sum(1)))
 
 
@@ -131,13 +129,13 @@ def _proposed(course: _Course, maps: LineMaps) -> Array:
         np.maximum(np.add.reduceat(bright, graph.offsets[:-1]) / np.diff(graph.offsets), 1e-3),
         np.diff(graph.offsets),
     )
-    signs = [np.where(sudden, turn / TURN, 0.0), (1 - bright / usual) / (1 - FADED)]
+    told = [np.where(sudden, turn / TURN, 0.0), (1 - bright / usual) / (1 - FADED)]
     if maps.endpoints is not None:
         near = cv2.dilate(maps.endpoints, np.ones((3, 3), np.uint8))
-        signs.append(sample(near, graph.points) / ENDED)
+        told.append(sample(near, graph.points) / ENDED)
     clear = course.room(every) >= max(LEAST_ARM - 1, round(CLEAR * course.pen))
     clear &= ~course.ring | (every < course.last)
-    signs = np.where(clear, np.stack(signs), 0.0)
+    signs = np.where(clear, np.stack(told), 0.0)
     signs[1:, _near_free_end(course, every)] = 0.0
     strength = signs.sum(0)
     best = signs.max(0) >= 1

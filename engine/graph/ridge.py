@@ -62,7 +62,8 @@ class Ridge:
         return found[top - low : bottom - low]
 
     def _curvatures(self, top: int, bottom: int) -> tuple[Array, Array, Array]:
-        return tuple(self._derivative(top, bottom, *way) for way in ((2, 0), (1, 1), (0, 2)))
+        xx, xy, yy = (self._derivative(top, bottom, *way) for way in ((2, 0), (1, 1), (0, 2)))
+        return xx, xy, yy
 
     def mask(self) -> Array:
         """(H, W) uint8, 255 where a line may run: bright enough, and not a valley or a skirt."""

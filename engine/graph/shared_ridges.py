@@ -192,8 +192,12 @@ def _picture(at: Array, course: Array, wide: Array, lean: Array) -> tuple[Array,
     course: (K, 2, S) heights of the two lines; wide: half their widths; lean: px per unit height.
     Returns (K, 2, S, A) and (K, 2 lines, 2, S, A).
     """
+    below: Array
+    above: Array
     below, above = course[..., None] * lean - wide, course[..., None] * lean + wide  # (K, 2, S, 1)
     place = at * lean
+    low: Array
+    high: Array
     low, high = below.min(1, keepdims=True), above.max(1, keepdims=True)
     gap_low, gap_high = above.min(1, keepdims=True), below.max(1, keepdims=True)
     apart = gap_high > gap_low

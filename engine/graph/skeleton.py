@@ -80,7 +80,7 @@ def trace(skeleton: Array) -> Chains:
 
 
 def _nodes(
-    shape: tuple[int, int], rows: Array, columns: Array, is_node: Array, degree: Array
+    shape: tuple[int, ...], rows: Array, columns: Array, is_node: Array, degree: Array
 ) -> tuple[Array, int]:
     """Number the node pixels; touching branch pixels get one number."""
     branching = np.zeros(shape, np.uint8)

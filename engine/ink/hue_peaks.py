@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from typing import TypeVar
+
 import numpy as np
 
 from ..values import Array
+
+Angle = TypeVar("Angle", float, Array)
 
 _HUES = 36  # bins round the colour circle
 
@@ -26,6 +30,6 @@ def hue_peaks(hue: Array, weight: Array, smallest: float) -> Array:
     return (np.flatnonzero(top) + 0.5) / _HUES * 2 * np.pi - np.pi
 
 
-def turn(angle: Array) -> Array:
+def turn(angle: Angle) -> Angle:
     """The same angle in [-pi, pi)."""
     return (angle + np.pi) % (2 * np.pi) - np.pi

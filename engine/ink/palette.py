@@ -84,7 +84,8 @@ def _typical(color: Array, weight: Array) -> Color:
     order = np.argsort(grey, kind="stable")
     reach = np.cumsum(weight[order])
     dark = order[: np.searchsorted(reach, reach[-1] / 2) + 1]
-    return tuple(round(_weighted_median(color[dark, c], weight[dark])) for c in range(3))
+    red, green, blue = (round(_weighted_median(color[dark, c], weight[dark])) for c in range(3))
+    return red, green, blue
 
 
 def _neutral(color: Array, weight: Array) -> Color:

@@ -56,6 +56,8 @@ def _of_branches(graph: PlanarGraph) -> Array:
     place = np.arange(len(graph.points)) - np.repeat(graph.offsets[:-1], count)
     share = place / np.repeat(np.maximum(count - 1, 1), count)
     weight = np.where(np.abs(share - 0.5) <= 0.5 - _INNER, 1.0, 1e-6)
+    assert graph.strength is not None, "pencil is told by what was measured"
+    assert graph.widths is not None
     value = undimmed(graph.strength, graph.widths)
     start = graph.offsets[:-1]
     return np.add.reduceat(weight * value, start) / np.add.reduceat(weight, start)

@@ -7,6 +7,7 @@ about a multiple of the ink's own, so that inks differ in the direction of their
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..values import Array, PlanarGraph
 
@@ -28,12 +29,12 @@ def density(colors: Array) -> Array:
     return -np.log((colors + 8.0) / 263.0)
 
 
-def tint(colors: Array) -> Array:
+def tint(colors: ArrayLike) -> Array:
     """(..., 2) direction (hue) and distance (chroma) from grey; 0 = black, grey or paper.
 
     Red ink has a chroma of about 1, black ink in a warm scan 0.1.
     """
-    return tint_of(density(colors))
+    return tint_of(density(np.asarray(colors)))
 
 
 def tint_of(dense: Array) -> Array:
@@ -61,6 +62,7 @@ def branch_colors(graph: PlanarGraph) -> Array:
     held = np.bincount(branch[inner], minlength=graph.branch_count)
     taken = np.cumsum(held) - held + (_DARKER * held).astype(np.int64)
     colors = np.empty((graph.branch_count, 3))
+    assert graph.colors is not None, "only a measured graph has colours"
     for channel in range(3):
         values = graph.colors[inner, channel].astype(np.float64)
         colors[:, channel] = values[np.lexsort((values, branch[inner]))][taken]

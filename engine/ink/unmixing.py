@@ -59,14 +59,14 @@ def _kept_beside(name: str, scan: Scan) -> Array:
     apart = np.abs(turn(hue[:, None] - inks))
     unwanted = colored & np.isin(apart.argmin(axis=1), meant)
     # The soft edge of a black line has colour fringes; it belongs to the line.
-    line = np.zeros(scan.ink.shape, np.uint8)
+    line: Array = np.zeros(scan.ink.shape, np.uint8)
     line[rows, columns] = (~colored) & (scan.ink[rows, columns] > 0.6)
     line = cv2.dilate(line, np.ones((3, 3), np.uint8))
     unwanted &= line[rows, columns] == 0
     if not unwanted.any():
         return kept
     # The soft edge of an unwanted line is too faint to show its colour.
-    edge = np.zeros(scan.ink.shape, np.uint8)
+    edge: Array = np.zeros(scan.ink.shape, np.uint8)
     edge[rows[unwanted], columns[unwanted]] = 1
     edge = cv2.dilate(edge, np.ones((5, 5), np.uint8))
     kept[(edge > 0) & (line == 0) & (scan.ink < 0.3)] = 0.0
@@ -88,6 +88,7 @@ def _other_share(dense: Array, ink: Array) -> Array:
 
 def _over_paper(scan: Scan) -> Array:
     """Optical density over the paper, (H, W, 3) float32."""
+    assert scan.color is not None, "inks are told apart on a page in colour"
     dense = density(scan.color.astype(np.float32))
     # Paper and its shading change slowly: seen where there is no ink, small, smooth.
     size = (max(1, scan.ink.shape[1] // 16), max(1, scan.ink.shape[0] // 16))

@@ -14,13 +14,13 @@ import numpy as np
 from ..errors import InvoluteError
 from ..graph.topology import joined
 from ..settings import Settings
-from ..values import Pair, PlanarGraph, Routing
+from ..values import Array, Pair, PlanarGraph, Routing
 from . import lifting
 from .alternatives import ranked_alternatives
 from .candidates import candidate_pairs
 
 Fixed = Mapping[int, tuple[Pair, ...]]
-Scorer = Callable[[PlanarGraph, np.ndarray, Fixed], np.ndarray]
+Scorer = Callable[[PlanarGraph, Array, Fixed], Array]
 
 
 def route(graph: PlanarGraph, settings: Settings, fixed: Fixed | None = None) -> Routing:
@@ -40,10 +40,9 @@ def route(graph: PlanarGraph, settings: Settings, fixed: Fixed | None = None) ->
     score = np.concatenate([_at_junctions(graph, pairs[:crossing], fixed, settings), turns])
     alternatives = ranked_alternatives(graph, score, fixed)
 
-    chosen = [fixed.get(j, ways[0].pairs) for j, ways in enumerate(alternatives)]
-    chosen = np.array(
-        [pair for ways in chosen[: len(graph.junctions)] for pair in ways], np.int32
-    ).reshape(-1, 2)
+    best = [fixed.get(j, ways[0].pairs) for j, ways in enumerate(alternatives)]
+    joined = [pair for ways in best[: len(graph.junctions)] for pair in ways]
+    chosen = np.array(joined, np.int32).reshape(-1, 2)
     on = lifting.goes_on(turns, settings.corners)
     for place, ways in fixed.items():
         if place >= len(graph.junctions):
@@ -74,9 +73,7 @@ def with_corners(routing: Routing, graph: PlanarGraph) -> Routing:
     )
 
 
-def _at_junctions(
-    graph: PlanarGraph, pairs: np.ndarray, fixed: Fixed, settings: Settings
-) -> np.ndarray:
+def _at_junctions(graph: PlanarGraph, pairs: Array, fixed: Fixed, settings: Settings) -> Array:
     """(K,) scores of the pairs at junctions, which see their branches whole, corners and all."""
     if not len(pairs):
         return np.zeros(0, np.float32)
@@ -95,14 +92,14 @@ def scorer_for(settings: Settings) -> Scorer:
     """The scorer that the settings ask for; "auto" = the network when its weights are there."""
     from . import geometric
 
-    def by_geometry(graph: PlanarGraph, pairs: np.ndarray, fixed: Fixed) -> np.ndarray:
+    def by_geometry(graph: PlanarGraph, pairs: Array, fixed: Fixed) -> Array:
         return geometric.score(graph, pairs)
 
     if settings.router == "geometric":
         return by_geometry
     from . import network
 
-    def by_network(graph: PlanarGraph, pairs: np.ndarray, fixed: Fixed) -> np.ndarray:
+    def by_network(graph: PlanarGraph, pairs: Array, fixed: Fixed) -> Array:
         shape = network.score(graph, pairs, fixed)
         return shape + geometric.tint_score(graph, pairs)
 

@@ -16,6 +16,11 @@ _BLOCK = 8  # px; paper is estimated on a grid of such blocks
 
 
 def flatten_paper(gray: Array) -> Array:
+    """The ink of a page of dark lines: see `flattened`."""
+    return flattened(gray)[0]
+
+
+def flattened(gray: Array, rules: bool = True) -> tuple[Array, bool]:
     """Take paper, shading, rules and grain out of a page of dark lines.
 
     Two passes: the lightest spots give a first guess of the paper; what that guess calls bare
@@ -24,9 +29,11 @@ def flatten_paper(gray: Array) -> Array:
 
     Args:
         gray: (H, W) float32 luminance in [0, 1]; 0 = black.
+        rules: whether printed rules and grids go.
 
     Returns:
-        ink, (H, W) float32 in [0, 1]: 0 on paper, about 1 on a full pen stroke, anti-aliased.
+        ink, (H, W) float32 in [0, 1]: 0 on paper, about 1 on a full pen stroke, anti-aliased; and
+        whether the page was ruled.
     """
     gray = np.ascontiguousarray(gray, np.float32)
     # In place wherever it can be: a page of 8192 px has 256 MiB in every such array.
@@ -41,12 +48,15 @@ def flatten_paper(gray: Array) -> Array:
     known = share > 0.1
     mean = _smooth_fill(_to_grid(rough * bare) / np.maximum(share, 1e-3), known)
     darkness = np.subtract(rough, _from_grid(mean, gray.shape), out=rough)
-    darkness = without_rules(darkness)
+    bare_page = without_rules(darkness) if rules else darkness
+    ruled = bare_page is not darkness
+    darkness = bare_page
+    del bare_page
     pen = _pen_level(darkness)
     _gate(darkness, bare, pen)
     del bare
     np.divide(darkness, _full_ink(darkness, pen), out=darkness)
-    return np.minimum(darkness, 1.0, out=darkness)
+    return np.minimum(darkness, 1.0, out=darkness), ruled
 
 
 def _light_paper(gray: Array) -> Array:
@@ -92,7 +102,7 @@ def _gate(darkness: Array, bare: Array, pen: float) -> None:
 
     Judged on smoothed ink, where grain is weaker and the gaps in a pencil line are closed.
     """
-    smooth = cv2.GaussianBlur(darkness, (0, 0), 1.2)
+    smooth: Array = cv2.GaussianBlur(darkness, (0, 0), 1.2)
     calm = cv2.erode(bare, np.ones((5, 5), np.uint8))  # not the foot of a line
     share = _to_grid(calm.astype(np.float32))
     square = np.square(smooth)
@@ -131,8 +141,8 @@ def _to_grid(image: Array) -> Array:
     return cv2.resize(image, blocks, interpolation=cv2.INTER_AREA)
 
 
-def _from_grid(grid: Array, shape: tuple[int, int]) -> Array:
-    return cv2.resize(grid, shape[::-1], interpolation=cv2.INTER_LINEAR)
+def _from_grid(grid: Array, shape: tuple[int, ...]) -> Array:
+    return cv2.resize(grid, shape[1::-1], interpolation=cv2.INTER_LINEAR)
 
 
 def _smooth_fill(grid: Array, known: Array) -> Array:

@@ -8,6 +8,7 @@ import io
 import zlib
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -29,7 +30,7 @@ class Layout:
     height: int
     width: int
     samples: int
-    dtype: np.dtype
+    dtype: np.dtype[Any]
     piece: tuple[int, int]
     separate: bool
     compression: int

@@ -29,7 +29,7 @@ def is_light_on_dark(picture: Array, settings: Settings) -> bool:
     # the picture's edge: OpenCV would repeat the edge, and a line there would be the paper.
     reach = max(3, min(255, min(small.shape) // 2 | 1))
     margin = reach // 2
-    around = cv2.copyMakeBorder(small, *4 * [margin], cv2.BORDER_REFLECT)
+    around = cv2.copyMakeBorder(small, margin, margin, margin, margin, cv2.BORDER_REFLECT)
     paper = cv2.medianBlur(around, reach)[margin:-margin, margin:-margin]
     away = small.astype(np.int16) - paper
     grain = 3 * float(np.median(np.abs(away))) + 8

@@ -15,7 +15,7 @@ import numpy as np
 
 from ..settings import Settings
 from ..values import Array, Scan
-from .paper import flatten_paper
+from .paper import flattened
 from .pen_width import measured_pen
 from .picture import Source, as_bytes, checked_picture, darkest_gray, unit
 from .polarity import is_light_on_dark, with_lightness_inverted
@@ -60,11 +60,15 @@ def read_scan(source: Source, settings: Settings, page: int = 0) -> Scan:
         picture = without_surroundings(picture, sheet)
         notes = (f"What lies beyond the sheet was left out: {sheet.share:.0%} of the picture.",)
     gray = darkest_gray(picture)
-    ink = flatten_paper(unit(gray)) if gray.size <= _FLAT_WHOLE else None
+    ink, ruled = None, False
+    if gray.size <= _FLAT_WHOLE:
+        ink, ruled = flattened(unit(gray), settings.rules)
     pen = settings.pen_width or measured_pen(gray, ink) or _DEFAULT_PEN
     scale = _working_scale(pen, width, height)
     if ink is None or scale != 1.0:
-        ink = flatten_paper(unit(_resized(gray, scale)))
+        ink, ruled = flattened(unit(_resized(gray, scale)), settings.rules)
+    if ruled:
+        notes = (*notes, "Printed rules were left out.")
     color = as_bytes(_resized(picture, scale)) if picture.ndim == 3 else None
     guessed = light and settings.polarity == "auto"
     return Scan(ink, color, scale, (width, height), pen / scale, light=guessed, notes=notes)

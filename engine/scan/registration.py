@@ -53,7 +53,7 @@ def set_aside(scan: Scan, settings: Settings) -> Scan:
     With `settings.align`, the page is turned and moved so that its holes or marks lie there; a page
     without such ones stays as it lies and says so.
     """
-    wanted = np.float32(settings.align).reshape(-1, 2) / scan.scale
+    wanted = np.array(settings.align, np.float32).reshape(-1, 2) / scan.scale
     if not settings.marks or settings.provider == "given":
         return replace(scan, aligned=not len(wanted))
     marks = find_marks(scan.ink, scan.pen_width)
@@ -123,7 +123,7 @@ def find_marks(ink: Array, pen_width: float) -> Marks:
     if shrink > 1:
         whole = cv2.resize(mask.view(np.uint8), (width, height), interpolation=cv2.INTER_NEAREST)
         mask = whole.view(bool)
-    anchors = np.float32([blob.middle for blob in holes or crosses]).reshape(-1, 2)
+    anchors = np.array([blob.middle for blob in holes or crosses], np.float32).reshape(-1, 2)
     return Marks(anchors * np.float32(shrink), mask, tuple(names))
 
 
@@ -143,7 +143,7 @@ def _moved(scan: Scan, motion: Array) -> Scan:
     height, width = scan.ink.shape
     # Our pixel centres lie at +0.5, OpenCV's at 0.
     motion = motion.copy()
-    motion[:, 2] += motion[:, :2] @ np.float32([0.5, 0.5]) - 0.5
+    motion[:, 2] += motion[:, :2] @ np.array([0.5, 0.5], np.float32) - 0.5
     ink = cv2.warpAffine(scan.ink, motion, (width, height), flags=cv2.INTER_CUBIC)
     color = scan.color
     if color is not None:
@@ -265,7 +265,7 @@ class _Blob:
 
     def sketch(self) -> Array:
         """The blob at a size at which all can be compared, (24, 24) float32."""
-        return cv2.resize(np.float32(self.mask), (24, 24), interpolation=cv2.INTER_AREA)
+        return cv2.resize(self.mask.astype(np.float32), (24, 24), interpolation=cv2.INTER_AREA)
 
 
 def likeness(a: Array, b: Array) -> float:
@@ -291,7 +291,7 @@ def _blobs(dark: Array, pen_width: float) -> list[_Blob]:
     return blobs
 
 
-def _peg_holes(blobs: Sequence[_Blob], shape: tuple[int, int]) -> list[_Blob]:
+def _peg_holes(blobs: Sequence[_Blob], shape: tuple[int, ...]) -> list[_Blob]:
     """Slot, round hole, slot in line (a peg bar), or a row of round holes (a file punch), or none.
 
     From hole to hole it is many times the round hole's width: 16 for ACME and Oxberry bars, 13 for
@@ -312,7 +312,7 @@ def _peg_holes(blobs: Sequence[_Blob], shape: tuple[int, int]) -> list[_Blob]:
     return min(patterns, key=lambda p: p[0], default=(0, []))[1]
 
 
-def _row_of(hole: _Blob, rounds: Sequence[_Blob], shape: tuple[int, int]) -> list[_Blob]:
+def _row_of(hole: _Blob, rounds: Sequence[_Blob], shape: tuple[int, ...]) -> list[_Blob]:
     """The file punch that a round hole belongs to: 2 to 4 alike, evenly, about mid-page; or none.
 
     A longer row of dots is a drawn one.
@@ -327,7 +327,7 @@ def _row_of(hole: _Blob, rounds: Sequence[_Blob], shape: tuple[int, int]) -> lis
     return row if even and 10 < gaps.mean() / hole.size[0] < 20 else []
 
 
-def _crosses(blobs: Sequence[_Blob], shape: tuple[int, int]) -> list[_Blob]:
+def _crosses(blobs: Sequence[_Blob], shape: tuple[int, ...]) -> list[_Blob]:
     """Registration marks: crosses that occur alike, at least two of them far apart."""
     crosses = _sorted([b for b in blobs if b.is_cross()])
     if len(crosses) > 64:  # a page full of crosses is a drawing
@@ -359,7 +359,7 @@ def _alike(a: _Blob, b: _Blob) -> bool:
     return all(abs(p - q) <= 0.2 * max(p, q) + 2 for p, q in zip(a.size, b.size, strict=True))
 
 
-def _in_line(a: _Blob, b: _Blob, shape: tuple[int, int]) -> bool:
+def _in_line(a: _Blob, b: _Blob, shape: tuple[int, ...]) -> bool:
     """Side by side along an edge of the page, which may lie a few degrees askew."""
     dx, dy = abs(a.middle[0] - b.middle[0]), abs(a.middle[1] - b.middle[1])
     height, width = shape
@@ -369,7 +369,7 @@ def _in_line(a: _Blob, b: _Blob, shape: tuple[int, int]) -> bool:
     return along_x or along_y
 
 
-def _centred(a: _Blob, b: _Blob, shape: tuple[int, int]) -> bool:
+def _centred(a: _Blob, b: _Blob, shape: tuple[int, ...]) -> bool:
     """Their middle lies about half-way along the edge."""
     axis = int(abs(a.middle[1] - b.middle[1]) > abs(a.middle[0] - b.middle[0]))
     half = 0.5 * (a.middle[axis] + b.middle[axis]) / shape[1 - axis]

@@ -20,6 +20,7 @@ _THROUGH, _MARGIN = 0.7, 0.9  # share of the strips in which a rule, or a margin
 _FEWEST, _FEWEST_ALONE = 5, 8  # rules; the latter where nothing on the page is darker
 _EVEN, _MOST_EVEN = 0.12, 0.7  # of the pitch that a gap may be off; share of the gaps that are not
 _SAME_PITCH, _NEXT = 0.03, 4  # front and back are ruled alike; lines looked at from one on
+_MOST_HIDDEN = 0.5  # share of the rules of the back that show at least
 _SPAN = 0.5  # of the page that rules cover
 _PEN, _PEN_PIXELS = 1.7, 60  # so many pixels so many times as dark as the rules: a pen
 _PALE = 0.5  # how dark the rules of an otherwise blank page may be
@@ -153,13 +154,17 @@ def _families(lines: _Lines, side: int) -> list[Array]:
         return [one]
     # The rules of the back, seen through the paper, lie between those of the front.
     front, pitch = _comb(lines, np.ones(len(lines.at), bool), side)
-    back, other = _comb(lines, ~front, side)
-    same = front.any() and back.any() and abs(other - pitch) < _SAME_PITCH * pitch
-    return [front, back] if same else []
+    back, _ = _comb(lines, ~front, side, pitch)
+    return [front, back] if front.any() and back.any() else []
 
 
-def _comb(lines: _Lines, free: Array, side: int) -> tuple[Array, float]:
-    """The largest set of free lines at equal distances, (N,) bool, and that distance; none = 0."""
+def _comb(lines: _Lines, free: Array, side: int, known: float = 0.0) -> tuple[Array, float]:
+    """The largest set of free lines at equal distances, (N,) bool, and that distance, px.
+
+    Args:
+        known: the distance, where it is known; then more of the lines may be hidden.
+    """
+    most = _MOST_HIDDEN if known else _MOST_EVEN
     best, best_pitch = np.zeros(len(lines.at), bool), 0.0
     if free.sum() < _FEWEST:
         return best, best_pitch
@@ -168,10 +173,12 @@ def _comb(lines: _Lines, free: Array, side: int) -> tuple[Array, float]:
     for ahead in range(1, _NEXT + 1):
         for a, b in zip(numbers, numbers[ahead:], strict=False):
             pitch = place[b] - place[a]
+            if known and abs(pitch - known) > _SAME_PITCH * known:
+                continue
             steps = (place - place[a]) / pitch
             tooth = free & (np.abs(steps - np.round(steps)) < _EVEN)
             teeth = np.round(steps[tooth])
-            full = len(np.unique(teeth)) >= _MOST_EVEN * (np.ptp(teeth) + 1)
+            full = len(np.unique(teeth)) >= most * (np.ptp(teeth) + 1)
             spans = np.ptp(place[tooth]) >= _SPAN * side
             if full and spans and tooth.sum() >= max(_FEWEST, best.sum() + 1):
                 best, best_pitch = tooth, float(pitch)

@@ -14,11 +14,11 @@ import numpy as np
 from ..settings import Settings
 from ..values import Array, Scan
 
-_CLEAR = 0.5  # ink
+_CLEAR = 0.7  # ink; high, so that dots that nearly touch are apart
 _DOT = 2.0  # pen widths, or px where that is more; a larger piece of ink is no dot
 _FEWEST = 40  # dots of a lattice
 _ALIKE = 0.2  # how much farther the fourth neighbour of a dot may be than the first, as a share
-_AROUND = 1.2  # distances between dots that the tone reaches beyond them
+_AROUND = 1.6  # distances between dots that the tone reaches beyond those inside it: its corners
 _FARTHEST = 24.0  # px between the dots of a tone
 
 
@@ -48,7 +48,7 @@ def without_screentone(scan: Scan, settings: Settings) -> Scan:
 
 def _lattice(places: Array) -> tuple[Array, Array]:
     """(N,) bool: which of the points (N, 2) are in a lattice; (N,) px to the nearest other."""
-    tree = cv2.flann_Index(places, {"algorithm": 4, "leaf_max_size": 10})
+    tree = cv2.flann_Index(places, {"algorithm": 4, "leaf_max_size": 10})  # type: ignore[attr-defined]
     near, squared = tree.knnSearch(places, 5, params={"checks": -1})
     apart = np.sqrt(np.maximum(squared[:, 1:], 0))
     even = (apart[:, 3] < (1 + _ALIKE) * apart[:, 0]) & (apart[:, 0] < _FARTHEST)

@@ -47,8 +47,8 @@ def find_sheet(picture: Array) -> Sheet | None:
     reach = 2 * int(_THICK * max(gray.shape) / 2) + 1
     smooth = cv2.medianBlur(gray, 5)
     level, _ = cv2.threshold(smooth, 0, 255, cv2.THRESH_BINARY | cv2.THRESH_OTSU)
-    light = (smooth > level).view(np.uint8)
-    light = cv2.morphologyEx(light, cv2.MORPH_CLOSE, np.ones((reach, reach), np.uint8))
+    bright = (smooth > level).view(np.uint8)
+    light = cv2.morphologyEx(bright, cv2.MORPH_CLOSE, np.ones((reach, reach), np.uint8))
     light = cv2.morphologyEx(light, cv2.MORPH_OPEN, np.ones((reach, reach), np.uint8))
     _, label, stats, _ = cv2.connectedComponentsWithStats(light)
     if len(stats) < 2:
@@ -67,7 +67,9 @@ def find_sheet(picture: Array) -> Sheet | None:
     margin = max(1, round(_MARGIN * max(gray.shape)))
     side = 2 * margin + 1
     # Where the sheet runs out of the picture it has no edge.
-    framed = cv2.copyMakeBorder(inside.view(np.uint8), *4 * [margin], cv2.BORDER_REPLICATE)
+    framed = cv2.copyMakeBorder(
+        inside.view(np.uint8), margin, margin, margin, margin, cv2.BORDER_REPLICATE
+    )
     kept = cv2.erode(framed, np.ones((side, side), np.uint8))[margin:-margin, margin:-margin]
     points = (hull[:, 0].astype(np.float32) + 0.5) * np.float32(shrink)
     return Sheet(points, kept == 0, 1 - share)

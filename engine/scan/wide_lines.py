@@ -23,9 +23,9 @@ _EDGE = 3  # px of the page that the soft edge of a broad line takes up
 _DARK = 0.45  # mean ink of a broad line, its grain included
 # Bundles of close lines on held-out pages have ink on 0.91 of what looks like one broad line in the
 # reduced picture; markers, and a bold pen, on 0.96 and more.
-_INKED, _SOLID = 0.35, 0.93
-_LONG = 3.0  # widths that a line is long
-_EVEN, _UNEVEN = 0.8, 0.25  # share of a line that is as wide as the rest, give or take so much
+_INKED, _SOLID = 0.35, 0.945
+_LONG = 5.0  # widths that a line is long; what is shorter may as well be a shape
+_EVEN, _UNEVEN = 0.8, 0.15  # share of a line that is as wide as the rest, give or take so much
 
 
 @dataclass(frozen=True, eq=False)

@@ -140,7 +140,7 @@ def _against_the_grain(
     before = sample_strokes(old)
     before = cv2.transform(before, matches.motion).reshape(before.shape)
     after = sample_strokes([new[k] for k in newcomers])
-    tree = cv2.flann_Index(before.reshape(-1, 2), {"algorithm": 4, "leaf_max_size": 10})
+    tree = cv2.flann_Index(before.reshape(-1, 2), {"algorithm": 4, "leaf_max_size": 10})  # type: ignore[attr-defined]
     near, squared = tree.knnSearch(after.reshape(-1, 2), 1, params={"checks": -1})
     there = np.gradient(before, axis=1).reshape(-1, 2)[near[:, 0]]
     here = np.gradient(after, axis=1).reshape(-1, 2)

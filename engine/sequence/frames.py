@@ -48,16 +48,16 @@ class FrameRange:
         parts = []
         for piece in text.split(","):
             match = _RANGE.fullmatch(piece)
-            first, last, step = (
-                (int(g) if g else None for g in match.groups()) if match else (0,) * 3
-            )
-            last = first if last is None else last
+            first, last, step = 0, 0, 0
+            if match:
+                first = int(match[1])
+                last, step = int(match[2] or first), int(match[3] or 1)
             if not match or last < first or step == 0:
                 raise InvoluteError(
                     f"Can't read the frames {text[:40]!r}; "
                     "write for example 101-200 or 1-48:2 or 1,5,9."
                 )
-            parts.append(range(first, last + 1, step or 1))
+            parts.append(range(first, last + 1, step))
         return FrameRange(tuple(parts))
 
     def __contains__(self, number: int) -> bool:

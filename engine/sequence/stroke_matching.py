@@ -51,17 +51,18 @@ def match_strokes(old: Sequence[Stroke], new: Sequence[Stroke]) -> Matches:
     Only strokes of one kind are matched: both closed or both open, and of exactly one colour.
     About n log n in the strokes.
     """
-    still = np.float32([[1, 0, 0], [0, 1, 0]])
+    still = np.array([[1, 0, 0], [0, 1, 0]], np.float32)
     if not old or not new:
-        return _matches(*np.zeros((3, 0), np.int32), still)
+        none = np.zeros(0, np.int32)
+        return _matches(none, none, none, still)
     before, after = sample_strokes(old), sample_strokes(new)
     colors = {color: 2 * k for k, color in enumerate({s.color for s in (*old, *new)})}
-    kinds = tuple(np.array([colors[s.color] + s.closed for s in frame]) for frame in (old, new))
+    here, there = (np.array([colors[s.color] + s.closed for s in frame]) for frame in (old, new))
     # The drawing may have crossed the page: start from both in place and centred, keep the better.
     centred = still.copy()
     centred[:, 2] = after.mean(axis=(0, 1)) - before.mean(axis=(0, 1))
     return min(
-        (_follow_motion(before, after, kinds, motion) for motion in (still, centred)),
+        (_follow_motion(before, after, (here, there), motion) for motion in (still, centred)),
         key=lambda result: result[0],
     )[1]
 
@@ -252,7 +253,7 @@ def _auction(near: Array, cost: Array, objects: int) -> Array:
 def _nearest(data: Array, queries: Array, count: int) -> tuple[Array, Array]:
     """The nearest data rows to each query and their distances, (Q, count), exact."""
     data = np.ascontiguousarray(data, np.float32)
-    tree = cv2.flann_Index(data, {"algorithm": 4, "leaf_max_size": 10})  # one exact k-d tree
+    tree = cv2.flann_Index(data, {"algorithm": 4, "leaf_max_size": 10})  # type: ignore[attr-defined]
     found, squared = tree.knnSearch(
         np.ascontiguousarray(queries, np.float32), count, params={"checks": -1}
     )

@@ -17,7 +17,7 @@ from .walk import Walk
 
 _WIDTH_BLUR = 1.0  # pen widths; sigma of the smoothing of widths along a stroke
 _OPACITY_BLUR = 3.0  # pen widths; the same of opacity, which is noisier
-_FADES, _FADING = 0.25, 0.2  # a stroke fades when a fifth of it is so far from its typical opacity
+_FADES, _FADING = 0.15, 0.2  # a stroke fades when a fifth of it is so far from its typical opacity
 _FAINTEST = 0.1  # opacity of a stroke at least, so that nothing is there that can't be seen
 _WIDTH_STEP = 0.12  # change of width, in pen widths, that is worth a point of its own
 _OPACITY_STEP = 0.12

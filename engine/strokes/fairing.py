@@ -74,7 +74,7 @@ def _neighbours(place: Array, stops: Array) -> tuple[Array, Array]:
     return np.maximum(before, 0), np.minimum(after, len(stops) - 1)
 
 
-def _fade(distance: Array, reach: Array) -> Array:
+def _fade(distance: Array, reach: Array | float) -> Array:
     """1 at 0, smoothly down to 0 at `reach`."""
     t = np.clip(1 - distance / np.maximum(reach, 1e-9), 0.0, 1.0)
     return t * t * (3 - 2 * t)

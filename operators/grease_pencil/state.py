@@ -17,6 +17,7 @@ remembered in Python but decoded drawings, looked up by the hash of their conten
 
 from __future__ import annotations
 
+import contextlib
 import zlib
 from collections import Counter
 from dataclasses import dataclass, replace
@@ -128,6 +129,16 @@ def settled(data: bpy.types.ID, key: int, drawing: Drawing) -> Drawing:
     if not stored_trace.differs_in_routing_only(base, drawing):
         return drawing
     return base.with_routing(drawing.routing.partner, drawing.routing.locked)
+
+
+def check_writable(data: bpy.types.ID) -> None:
+    """Can a trace be stored here?
+
+    Raises:
+        InvoluteError: a newer Involute has stored its own.
+    """
+    with contextlib.suppress(UnsoundTraceError):  # that is made anew
+        _traces(data)
 
 
 def add(data: bpy.types.ID, drawing: Drawing, pixel_map: PixelMap, source: str) -> int:

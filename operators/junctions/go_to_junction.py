@@ -61,7 +61,8 @@ class INVOLUTE_OT_step_junction(JunctionOperator, bpy.types.Operator):
         if len(listed) == 0:
             self.report({"INFO"}, message("No junction passes the filters."))
             return {"CANCELLED"}
-        here = np.flatnonzero(listed == shown.view.junction)
+        current = shown.junction.index if shown.junction else -1
+        here = np.flatnonzero(listed == current)
         if len(here):
             place = int(here[0]) + (1 if self.direction == "NEXT" else -1)
         else:  # the current one has just been decided: go on with what is left

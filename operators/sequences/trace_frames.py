@@ -124,6 +124,7 @@ class INVOLUTE_OT_trace_sequence(
         if self.resume:
             if not cels.is_grease_pencil(context.active_object):
                 raise InvoluteError("Make the Grease Pencil object of the sequence the active one.")
+            state.check_writable(context.active_object.data)
             self._target = context.active_object.name
         elif not self._empty:
             place_drawing(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import bpy
@@ -40,7 +41,7 @@ class FileChoice(ChosenFiles, ImportHelper):
         """The folder that was chosen."""
         return self.directory or str(Path(self.filepath).parent)
 
-    def hand_to(self, operator: object, **options: object) -> set[str]:
+    def hand_to(self, operator: Callable[..., set[str]], **options: object) -> set[str]:
         """Run another operator, in the background where there is a window; pass on its report."""
         way = "EXEC_DEFAULT" if bpy.app.background else "INVOKE_DEFAULT"
         try:

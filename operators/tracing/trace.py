@@ -68,6 +68,7 @@ class INVOLUTE_OT_trace(JobOperator, ChosenFiles, PlacingOptions, TraceOptions, 
             obj = context.active_object
             if not cels.is_grease_pencil(obj) or not obj.data.is_editable:
                 raise InvoluteError("Make a Grease Pencil object of this file the active one.")
+            state.check_writable(obj.data)
             self._target = obj.name
         else:
             place_drawing(context, (1, 1), self.place, self.pixels_per_metre)

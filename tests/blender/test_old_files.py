@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from .test_splicing import assert_same, drawing_of, strokes_in
+from .test_splicing import apart, assert_same, drawing_of, strokes_in
 
 # 6 junctions; the first was rerouted, the third locked. Saved by version 0.1.0 in Blender 5.0.
 REROUTED = Path(__file__).parent / "data" / "rerouted.blend"
@@ -41,5 +41,8 @@ def test_they_can_be_rerouted(bpy, part, opened):
         assert bpy.ops.involute.reroute(junction=junction, alternative=2) == {"FINISHED"}
     drawing = drawing_of(part, obj)
     assert all(j.pairs == j.alternatives[2].pairs for j in drawing.junctions)
-    assert_same(strokes_in(part, obj, pixel_map), drawing.strokes)
+    found = strokes_in(part, obj, pixel_map)
+    assert len(found) == len(drawing.strokes)
+    for stroke in drawing.strokes:  # smoothed by another version: near, not the same points
+        assert min(apart(points, stroke, closed) for points, closed in found) < 1.5
     assert bpy.ops.involute.ask_again() == {"FINISHED"}

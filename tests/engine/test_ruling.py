@@ -5,7 +5,9 @@ from __future__ import annotations
 import cv2
 import numpy as np
 import pytest
+from involute.engine import Settings
 from involute.engine.pipeline import vectorize
+from involute.engine.scan import read_scan
 from involute.engine.scan.paper import flatten_paper
 from involute.engine.scan.ruling import without_rules
 
@@ -55,6 +57,25 @@ def test_a_rule_hidden_by_the_drawing_goes_too():
         ink[280:320, x : x + 3] = 1
     page = together(0.9 * ink, sheet(40.0, 0.0, 0.3, grid=False))
     assert without_rules(page)[280:320, 480:][ink[280:320, 480:] == 0].max() < 0.1
+
+
+@pytest.mark.parametrize("between", [13.0, 17.0, 21.0])
+def test_the_rules_of_the_back_that_show_through_go_too(between):
+    ink = drawing()
+    back = np.roll(sheet(42.0, 0.0, 0.12, grid=False), round(between), 0)
+    page = together(0.9 * ink, sheet(42.0, 0.0, 0.35, grid=False), back)
+    left = without_rules(page)
+    assert left[ink == 0].mean() < 0.006
+    assert left[ink == 1].min() > 0.6
+
+
+def test_rules_can_be_kept_and_are_told():
+    page = 1 - together(0.9 * drawing(), sheet(40.0, 0.0, 0.3, grid=False))
+    scan = read_scan(page, Settings())
+    assert scan.notes == ("Printed rules were left out.",)
+    kept = read_scan(page, Settings(rules=False))
+    assert not kept.notes
+    assert (kept.ink > 0.2).sum() > 2 * (scan.ink > 0.2).sum()
 
 
 def test_a_bare_ruled_sheet_is_bare():

@@ -14,7 +14,7 @@ from involute.engine.scan.wide_lines import find_wide_lines
 def page(broad=22, grain=False):
     """Two broad strokes, and three of a pen of about 5 px."""
     image = np.full((420, 520), 255, np.uint8)
-    cv2.line(image, (60, 60), (60 + 5 * broad, 110), 0, broad, cv2.LINE_AA)
+    cv2.line(image, (60, 60), (60 + 6 * broad, 110), 0, broad, cv2.LINE_AA)
     cv2.ellipse(image, (360, 140), (80, 70), 0, 20, 300, 0, broad, cv2.LINE_AA)
     if grain:
         noise = cv2.GaussianBlur(np.random.default_rng(1).normal(0, 1, image.shape), (0, 0), 1)

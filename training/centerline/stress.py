@@ -45,12 +45,12 @@ def main(arguments: list[str] | None = None) -> None:
     options = parser.parse_args(arguments)
     library = Library.load(options.data)
     infer = load(options.weights, "cpu")
-    columns = []
+    columns: list[Array] = []
     for number, hard in enumerate(pages()):
         gray = drawn(np.random.default_rng((options.seed, number)), hard, library)
         line = trace_maps(flatten_paper(gray), infer, lambda fraction: None).centerline
-        column = [_captioned(gray, hard.name), np.ones((GAP, SIZE)), 1 - line]
-        column = np.vstack(column)
+        shown = _captioned(gray, hard.name), np.ones((GAP, SIZE)), 1 - line
+        column = np.vstack(shown)
         columns += [column, np.ones((len(column), GAP))]
     picture = np.hstack(columns[:-1])
     cv2.imwrite(str(options.out), np.round(np.clip(picture, 0, 1) * 255).astype(np.uint8))
@@ -95,10 +95,10 @@ def pages() -> Iterator[Page]:
 
 def drawn(rng: Rng, hard: Page, library: Library) -> Array:
     """The page as a scanner sees it, (SIZE, SIZE) float32 luminance."""
-    ink = np.zeros((SIZE, SIZE), np.float32)
+    ink: Array = np.zeros((SIZE, SIZE), np.float32)
     for strokes in hard.strokes(rng, library):
-        samples = sample(strokes, SIZE) if strokes else ()
-        if len(samples) > 1:
+        samples = sample(strokes, SIZE) if strokes else None
+        if samples is not None and len(samples) > 1:
             layer, _ = draw(rng, samples, hard.medium, hard.width, SIZE)
             ink = 1 - (1 - ink) * (1 - layer)
     return scan(rng, hard.sheet(rng) * (1 - 0.95 * ink))

@@ -36,6 +36,8 @@ Array = np.ndarray
 _MARGIN = 12.0  # px around the drawing
 _LARGEST = 1000.0  # px; a page is cut to this, so that tracing stays quick
 _WIDEST = 9.0  # px; wider pens are scanned at a lower resolution
+_args: argparse.Namespace  # of a process that makes pages, and its
+_library: Library
 _SAVED = 500  # tries between two writings of the file
 _KINDS = (0.15, 0.25, 0.6)  # shares of ideal, inked and scanned pages
 MOST_FALSE = 0.3  # of the length of all branches: more than this that nobody drew is no drawing
@@ -126,7 +128,8 @@ def look_ideal(
     maps = image.astype(np.float32) / 255
     if rng.random() < 0.7:
         maps = np.minimum(1, 2.2 * cv2.GaussianBlur(maps, (0, 0), rng.uniform(0.6, 1.0)))
-    return LineMaps(maps), Scan(np.zeros_like(maps), None, 1.0, maps.shape[::-1], 2.0)
+    height, width = maps.shape
+    return LineMaps(maps), Scan(np.zeros_like(maps), None, 1.0, (width, height), 2.0)
 
 
 def look_ink(
@@ -135,7 +138,7 @@ def look_ink(
     """Even pen strokes on white paper, through the centerline provider that ships."""
     size = _size(strokes)
     pen = rng.uniform(2.0, 5.5)
-    ink = np.zeros((2 * size[0], 2 * size[1]), np.uint8)
+    ink: Array = np.zeros((2 * size[0], 2 * size[1]), np.uint8)
     for line in strokes:
         wide = max(1, round(2 * pen * np.exp(rng.normal(0, 0.12))))
         _draw(ink, line, wide, int(rng.integers(190, 256)), 2)

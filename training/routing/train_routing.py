@@ -115,7 +115,8 @@ def validation(
 ) -> dict[str, Batch]:
     """Held-out pages: as drawn ("true"), varied at random ("rough"), and really traced."""
     rng = np.random.default_rng(seed)
-    drawn, rough = [], []
+    drawn: list[Batch] = []
+    rough: list[Batch] = []
     while len(drawn) < pages:
         page = true_page(library.page(rng))
         if len(page.graph.junctions):

@@ -7,6 +7,8 @@ copies learn different things from then on.
 
 from __future__ import annotations
 
+from typing import Any
+
 import torch
 from torch import Tensor
 
@@ -19,7 +21,7 @@ def widened(net: RoutingNet, dropout: float = 0.0) -> RoutingNet:
     """The same function in a network of double width and edge."""
     width, edge, heads = (net.config[name] for name in ("width", "edge", "heads"))
     depth = width // heads
-    config = net.config | {"width": 2 * width, "edge": 2 * edge, "dropout": dropout}
+    config: dict[str, Any] = net.config | {"width": 2 * width, "edge": 2 * edge, "dropout": dropout}
     wide = RoutingNet(**config)
     state = {}
     for name, weight in net.state_dict().items():

@@ -37,6 +37,8 @@ Array = np.ndarray
 _SCANNED = 0.85  # share of the pages; the others are even ink
 _STIPPLED = 0.5  # share of the pages that have dots, too
 _APART, _ON = 9.0, 3.0  # px between a dot and what else is drawn; and between it and its trace
+_library: Library  # of a process that makes pages, and its
+_seed: int
 _PIECE = 50  # pages between two writings of the file
 
 
@@ -160,7 +162,7 @@ def train(
         weights[f"weight{number}"] = layer.weight.detach().numpy().T.copy()
         weights[f"bias{number}"] = layer.bias.detach().numpy()
     figures = counts | _figures(training.mean, held, held_labels)
-    return {name: np.float32(value) for name, value in weights.items()}, figures
+    return {name: np.asarray(value, np.float32) for name, value in weights.items()}, figures
 
 
 def _batches(x: Tensor, y: Tensor) -> Iterator[tuple[Tensor, Tensor]]:

@@ -137,6 +137,10 @@ TEXTS = {
     "Pink": "Rosa",
     "Gray": "Grau",
     "Solid Width": "Flächenbreite",
+    "Leave Out Rules": "Lineatur weglassen",
+    "Don't trace the printed lines of ruled and squared paper": (
+        "Die gedruckten Linien von liniertem und kariertem Papier nicht nachziehen"
+    ),
     "Leave Out Screentone": "Rasterfolie weglassen",
     "Don't trace areas of evenly set dots, such as the tones of a comic": (
         "Flächen aus gleichmäßig gesetzten Punkten nicht nachziehen, etwa die Töne eines Comics"

@@ -13,6 +13,7 @@ import gpu
 import numpy as np
 from gpu_extras.batch import batch_for_shader
 
+from ...operators.view.on_screen import places_on_screen
 from ...operators.view.view_state import Shown, traced_in, view_of
 from ..panels.preferences import preferences_of
 from . import cards
@@ -23,6 +24,8 @@ from .stroke_overlay import draw_strokes
 
 if TYPE_CHECKING:
     from ...engine import Drawing
+
+_RING_WIDTH, _RING_RADIUS = 2.2, 8.0  # px of the screen; smaller rings have thinner lines
 
 _handles: list[object] = []
 _seen: dict[int, Shown] = {}
@@ -100,13 +103,23 @@ def _draw_rings(context: bpy.types.Context, shown: Shown) -> None:
     key = ("rings", *_state(shown), scale, preferences.ring_size)
     shader = gpu.shader.from_builtin("POLYLINE_FLAT_COLOR")
     batch = kept(key, lambda: _ring_batch(shader, shown, scale, preferences.ring_size))
+    width = _ring_width(context, shown, preferences.ring_size)
     dark = gpu.shader.from_builtin("POLYLINE_UNIFORM_COLOR")
-    _set_up(context, dark, 4.0)  # an edge, so that rings show on paper and on ink alike
+    _set_up(context, dark, 1.8 * width)  # an edge, so that rings show on paper and on ink alike
     dark.uniform_float("color", (0.0, 0.0, 0.0, 0.35))
     batch.draw(dark)
-    _set_up(context, shader, 2.2)
+    _set_up(context, shader, width)
     batch.draw(shader)
     _tidy_up()
+
+
+def _ring_width(context: bpy.types.Context, shown: Shown, size: float) -> float:
+    """Px of the screen: thin while the whole page is seen, so that rings don't hide its strokes."""
+    middle = np.array(shown.trace.drawing.size) / 2
+    radius = size * pen_width(shown.trace.drawing)
+    places = places_on_screen(context, shown, np.array([middle, middle + np.array([radius, 0.0])]))
+    seen = float(np.linalg.norm(places[1] - places[0]))
+    return float(np.clip(_RING_WIDTH * seen / _RING_RADIUS, 1.0, _RING_WIDTH))
 
 
 def _ring_batch(

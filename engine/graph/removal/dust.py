@@ -24,6 +24,8 @@ def remove_dust(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> P
     """
     if graph.branch_count == 0:
         return graph
+    assert graph.widths is not None, "dust is looked for in a measured graph"
+    assert graph.strength is not None
     pen = float(np.median(finer_pen(graph.widths)))
     full = max(float(np.percentile(graph.strength, LIMITS.dust_full)), 1e-3)
     label = connected(len(graph.vertices), graph.ends)

@@ -38,6 +38,7 @@ def remove_stubs(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> 
         np.bincount(stroke[half[some] >> 1], minlength=graph.branch_count) > 0
         for some in (ends, degree == 1)
     )
+    assert graph.widths is not None, "stubs are looked for in a measured graph"
     pen = float(np.median(finer_pen(graph.widths)))
     shortest = np.where(loose, LIMITS.stub_tip, LIMITS.stub_between) * settings.min_length * pen
     stub = (hangs & (length < shortest))[stroke]

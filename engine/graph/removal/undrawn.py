@@ -75,6 +75,8 @@ def features(graph: PlanarGraph, evidence: Evidence) -> Array:
     bright = sample(value, graph.points).astype(np.float64)
     mean = means(graph, bright)
     least, most = (how.reduceat(bright, graph.offsets[:-1]) for how in (np.minimum, np.maximum))
+    assert maps.half_width is not None, "it is asked only what the network saw"
+    assert maps.solid is not None
     width = 2 * means(graph, sample(maps.half_width, graph.points)) / pen_width
     solid = means(graph, sample(maps.solid, graph.points))
     chord = np.hypot(*(graph.vertices[graph.ends[:, 0]] - graph.vertices[graph.ends[:, 1]]).T)
@@ -123,6 +125,8 @@ def _at_ends(graph: PlanarGraph, mean: Array, length: Array, evidence: Evidence)
         np.maximum.at(bright, one, mean[other >> 1])
         np.maximum.at(long, one, length[other >> 1])
     own = np.repeat(mean, 2) / np.maximum(np.where(bright > 0, bright, np.repeat(mean, 2)), 1e-3)
+    assert evidence.seen_junctions is not None
+    assert evidence.seen_ends is not None
     place = graph.vertices[vertex]
     return np.column_stack(
         [

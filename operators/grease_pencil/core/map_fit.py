@@ -12,6 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from hashlib import blake2b
 from typing import TYPE_CHECKING
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -27,6 +28,7 @@ _SAMPLED = 120  # strokes; three points of each say enough
 _AGREE = 0.5  # px; a point that is this near lies where the map says
 _ROUNDS = 4  # of fitting and leaving out what the artist moved
 _kept: OrderedDict[bytes, PixelMap] = OrderedDict()
+_strokes: WeakKeyDictionary[Drawing, dict[int, Array]] = WeakKeyDictionary()
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,7 +80,7 @@ def fitted(drawing: Drawing, cels: Sequence[Places], key: int, stored: PixelMap)
 
 def _pairs(drawing: Drawing, cels: Sequence[Places], key: int) -> tuple[Array, Array]:
     """(N, 2) pixels and (N, 3) places of the first, middle and last points of some strokes."""
-    strokes = {int(s.branches[0]) + 1: s.points for s in drawing.strokes if len(s.branches)}
+    strokes = _by_first_half(drawing)
     pixels, places = [], []
     for cel in cels:
         mine = np.flatnonzero((cel.keys == key) & (cel.halves > 0))
@@ -94,6 +96,14 @@ def _pairs(drawing: Drawing, cels: Sequence[Places], key: int) -> tuple[Array, A
     if not pixels:
         return np.zeros((0, 2)), np.zeros((0, 3))
     return np.array(pixels, np.float64), np.array(places, np.float64)
+
+
+def _by_first_half(drawing: Drawing) -> dict[int, Array]:
+    """The points of each stroke, by its first half-branch counted from 1; made once a drawing."""
+    if drawing not in _strokes:
+        strokes = (s for s in drawing.strokes if len(s.branches))
+        _strokes[drawing] = {int(s.branches[0]) + 1: s.points for s in strokes}
+    return _strokes[drawing]
 
 
 def _fit(pixels: Array, places: Array, stored: PixelMap) -> PixelMap:

@@ -208,7 +208,7 @@ def concatenate(parts: Sequence[Curves]) -> Curves:
 
 def _stacked(columns: Sequence[dict[str, Column]], counts: Sequence[int]) -> dict[str, Column]:
     types = {name: c.type for part in columns for name, c in part.items()}
-    blank = {
+    blank: dict[str, np.ndarray] = {
         name: np.zeros((1, FORMATS[kind][2]), FORMATS[kind][1]) for name, kind in types.items()
     }
     return {
