@@ -142,7 +142,7 @@ def _sketched(
     spacing = line_spacing(sample(lines, _SIDE), _SIDE)
     hand = replace(Hand.any(rng, pen, spacing), strokes=float(each))
     pencil, press = pencilled(rng, lines, hand)
-    ink = np.zeros((_SIDE, _SIDE), np.float32)
+    ink: Array = np.zeros((_SIDE, _SIDE), np.float32)
     for low, high in ((0, 0.5), (0.5, 0.75), (0.75, 2)):  # from light to dark
         chosen = [s for s, p in zip(pencil, press, strict=True) if low <= p < high]
         if chosen:

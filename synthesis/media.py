@@ -7,7 +7,7 @@ edge of the ink AND the sample it belongs to, with its pen width and pressure.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from itertools import pairwise
 
@@ -334,10 +334,12 @@ MEDIA: dict[str, Medium] = {
     "brushpen": Medium((2.0, 9.0), (0.3, 0.7), (0.1, 0.7), ragged=(0.05, 0.3)),
 }
 # Lines that no pen drew on paper: one bit without any grey, and crisp ones with smooth edges.
-_EVEN = {"swell": (0.0, 0.0), "density": (1.0, 1.0), "fade": (0.0, 0.0), "ragged": (0.0, 0.0)}
+_EVEN = Medium(
+    (0.9, 4.3), swell=(0.0, 0.0), density=(1.0, 1.0), fade=(0.0, 0.0), ragged=(0.0, 0.0), skip=0.0
+)
 DIGITAL: dict[str, Medium] = {
-    "one bit": Medium((0.9, 4.3), soft=(0.0, 0.0), skip=0.0, **_EVEN),
-    "crisp": Medium((0.9, 6.0), soft=(0.5, 0.5), skip=0.0, **_EVEN),
+    "one bit": replace(_EVEN, soft=(0.0, 0.0)),
+    "crisp": replace(_EVEN, width=(0.9, 6.0), soft=(0.5, 0.5)),
 }
 
 

@@ -89,9 +89,12 @@ def _room(ink: Array, heads: int) -> list[Array | None]:
 def _named(maps: list[Array | None]) -> LineMaps:
     """The maps in the order of the heads; lengths in px."""
     for head in _LENGTHS:
-        if head < len(maps) and maps[head] is not None:
-            maps[head] *= HALF_WIDTH_UNIT
-    return LineMaps(*maps)
+        length = maps[head] if head < len(maps) else None
+        if length is not None:
+            np.multiply(length, HALF_WIDTH_UNIT, out=length)
+    centerline, *others = maps
+    assert centerline is not None  # it is needed on every page
+    return LineMaps(centerline, *others)
 
 
 def _padded(window: Array) -> Array:
