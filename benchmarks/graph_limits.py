@@ -22,7 +22,7 @@ from involute.engine import Settings
 from involute.engine.centerline import provider_for
 from involute.engine.fills.solids import split_solids
 from involute.engine.graph import Evidence, traced
-from involute.engine.graph.limits import Row, changed, table
+from involute.engine.graph.limits import MEASURED, Row, changed, table
 from involute.engine.routing import route
 from involute.engine.scan import read_scan
 
@@ -56,11 +56,13 @@ def main(argv: Sequence[str] | None = None) -> None:
     for one in table():
         if not arguments.only or one.name in arguments.only:
             rows.append([one.name, f"{one.value:g} {one.unit}", one.why])
-            for value in (lower(one), higher(one)):
+            for value in (lower(one), higher(one)) if one.source == MEASURED else ():
                 with changed(**{one.name: value}):
                     # What was computed from the ridges of a page holds for its limits only.
                     found = judged([(replace(e), s, t) for e, s, t in seen], settings)
                 rows[-1].append(f"{value:g}: {difference(base, found)}")
+            if one.source != MEASURED:
+                rows[-1] += [one.source, ""]
             print(*rows[-1], sep=" | ", flush=True)
     head = f"{len(seen)} pages: " + ", ".join(f"{key} {base[key]:.3f}" for key in _JUDGED)
     text = markdown(["limit", "value", "what it is", "halved", "doubled"], rows)
@@ -85,7 +87,7 @@ def judged(
     for evidence, size, truth in seen:
         strokes = polylines(*traced(evidence, settings, route))
         scores.append(evaluate(scaled(strokes, size), truth))
-    return summarize(scores) | {"f1": float(np.mean([score.f1 for score in scores])) / 100}
+    return summarize(scores) | {"f1": float(np.mean([score.f1 for score in scores]))}
 
 
 def lower(one: Row) -> float:

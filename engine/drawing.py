@@ -199,6 +199,8 @@ class Drawing:
     def with_corners(self, bias: float) -> Drawing:
         """Decide all corners that are not locked anew, without asking the picture again.
 
+        A page that was traced with `Settings.corners` at -1 has only the corners that were cut.
+
         Args:
             bias: -1 = strokes run through all corners, 0 = where that is more probable, 1 = they
                 end wherever the pen may have been lifted.

@@ -209,13 +209,13 @@ class Settings:
         more="Corners stay",
     )
     corners: float = _number(
-        0.0,
+        -1.0,
         -1.0,
         1.0,
         group=CLEAN,
         label="Pen Lifts",
-        tip="Where strokes end though only two lines meet: 0 where it looks as if the pen was "
-        "lifted, -1 nowhere, 1 wherever it may have been",
+        tip="Where strokes end though only two lines meet: -1 nowhere, 0 where it looks as if the "
+        "pen was lifted, 1 wherever it may have been",
         more="See [corners](junctions.md#corners)",
     )
     provider: str = _one_of(

@@ -46,8 +46,8 @@ class Habit:
         share = {"as drawn": 0.0, "lifting": rng.uniform(0.85, 1.0), "mixed": rng.random()}
         corners = share[kind]
         seams = rng.choice([0.0, 1 / 1500, 1 / 400]) if corners else 0.0
-        exact = rng.choice([0.0, 1.0, rng.random()], p=[0.4, 0.2, 0.4])
-        along, across = rng.uniform(0.2, 1.2) * pen, rng.uniform(0.1, 0.7) * pen
+        exact = rng.choice([0.0, 1.0, rng.random()], p=[0.5, 0.1, 0.4])
+        along, across = rng.uniform(0.3, 1.5) * pen, rng.uniform(0.2, 0.8) * pen
         over = rng.normal(0.0, 0.5) * pen
         return Habit(corners, float(seams), along, across, over, float(exact))
 

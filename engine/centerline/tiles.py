@@ -2,6 +2,10 @@
 
 White paper is never looked at; memory is bounded by the tile. Windows overlap: a network sees
 CONTEXT px beyond its tile, as far as its answer depends on, so there are no seams to hide.
+
+A network that halves its maps answers a little differently when a drawing moves by a pixel. So
+blocks are counted from the middle of the ink, not from the corner of the page: the same drawing
+gets the same answer wherever it lies on its sheet.
 """
 
 from __future__ import annotations
@@ -20,6 +24,8 @@ LARGEST = 1024  # px; longest side of a window, which bounds the memory
 _PAPER_CONTEXT = 64  # px, where it is blank
 _CELL = 16  # px; ink is looked for in cells of this size
 _INK = 0.04  # mean of 3x3 px above which paper counts as inked
+_SURE_INK = 0.3  # what is fainter does not say where the middle of the ink is
+_BAND = 512  # px; rows looked at together when there is no window, which bounds the memory
 _OVERHEAD = 1.0  # blocks; what the call of a network costs beside its pixels
 
 
@@ -62,21 +68,51 @@ def plan(active: Array) -> list[Tile]:
     return [Tile(*(BLOCK * edge for edge in box)) for box in _cover(active)]
 
 
-def active_blocks(ink: Array) -> Array:
+def shift_of(ink: Array) -> tuple[int, int]:
+    """Rows and columns of paper, 0 to BLOCK - 1, that put the middle of the ink (H, W) on a corner
+    of blocks when they are added above and to the left of it."""
+    rows, columns = np.zeros(ink.shape[0]), np.zeros(ink.shape[1])
+    for top in range(0, len(ink), _BAND):
+        band = np.maximum(ink[top : top + _BAND] - np.float32(_SURE_INK), 0)
+        rows[top : top + _BAND] = band.sum(1, dtype=np.float64)
+        columns += band.sum(0, dtype=np.float64)
+    mass = rows.sum()
+    if mass == 0:
+        return 0, 0
+    middle = ((sums * np.arange(len(sums))).sum() / mass for sums in (rows, columns))
+    down, right = (-int(np.floor(place + 0.5)) % BLOCK for place in middle)
+    return down, right
+
+
+def moved(ink: Array, rows: slice, columns: slice, shift: tuple[int, int]) -> Array:
+    """A part of the page as it lies when `shift` rows and columns of paper are put before it."""
+    down, right = shift
+    part = ink[
+        max(0, rows.start - down) : max(0, rows.stop - down),
+        max(0, columns.start - right) : max(0, columns.stop - right),
+    ]
+    above, before = max(0, down - rows.start), max(0, right - columns.start)
+    if above or before:
+        part = np.pad(part, ((above, 0), (before, 0)))
+    return np.ascontiguousarray(part)
+
+
+def active_blocks(ink: Array, shift: tuple[int, int] = (0, 0)) -> Array:
     """Which blocks of BLOCK px hold ink, or have some within _CELL px.
 
     Args:
         ink: (H, W) float32.
+        shift: rows and columns of paper that come before it.
 
     Returns:
-        (ceil(H / BLOCK), ceil(W / BLOCK)) bool.
+        (ceil((H + down) / BLOCK), ceil((W + right) / BLOCK)) bool.
     """
-    height, width = ink.shape
+    height, width = (side + more for side, more in zip(ink.shape, shift, strict=True))
     rows, columns = -(-height // _CELL), -(-width // _CELL)
     cells: Array = np.zeros((rows, columns), np.uint8)
-    band = 32 * _CELL  # bands of rows keep the copies small
-    for top in range(0, height, band):
-        seen = cv2.blur(ink[top : top + band], (3, 3)) > _INK
+    for top in range(0, height, _BAND):
+        band = moved(ink, slice(top, min(top + _BAND, height)), slice(0, width), shift)
+        seen = cv2.blur(band, (3, 3)) > _INK
         seen = np.pad(seen, ((0, -len(seen) % _CELL), (0, -width % _CELL)))
         shape = (len(seen) // _CELL, _CELL, columns, _CELL)
         cells[top // _CELL :][: shape[0]] = seen.reshape(shape).any((1, 3))
@@ -182,27 +218,47 @@ def look(
             None = not wanted.
         tick: called with the fraction that is done; what it raises passes through.
     """
-    active = active_blocks(ink)
+    shift = shift_of(ink)
+    active = active_blocks(ink, shift)
+    height, width = ink.shape[0] + shift[0], ink.shape[1] + shift[1]
     tiles = plan(active)
     total = sum(tile.area for tile in tiles)
     done = 0
     for tile in tiles:
         tick(done / total)
-        rows, columns = tile.window(active, *ink.shape)
-        answers = infer(np.ascontiguousarray(ink[rows, columns]))
-        inside = ink[tile.top : tile.bottom, tile.left : tile.right].shape
-        row = np.arange(tile.top, tile.top + inside[0]) // BLOCK
-        column = np.arange(tile.left, tile.left + inside[1]) // BLOCK
-        inked = active[row[:, None], column]
+        rows, columns = tile.window(active, height, width)
+        answers = infer(moved(ink, rows, columns, shift))
+        # The tile without the paper that was put before the page, and what lies beyond it.
+        top, left = max(tile.top, shift[0]), max(tile.left, shift[1])
+        bottom, right = min(tile.bottom, height), min(tile.right, width)
+        inked = active[np.arange(top, bottom)[:, None] // BLOCK, np.arange(left, right) // BLOCK]
+        corner = top - rows.start, left - columns.start
+        place = top - shift[0], left - shift[1]
         for answer, target in zip(answers, maps, strict=True):
             if target is not None:
-                step = 1 if target.shape == ink.shape else 2  # tiles and windows begin at even px
-                y, x = (tile.top - rows.start) // step, (tile.left - columns.start) // step
-                place = target[
-                    tile.top // step : -(-tile.bottom // step),
-                    tile.left // step : -(-tile.right // step),
-                ]
-                seen = answer[y : y + place.shape[0], x : x + place.shape[1]]
-                place[:] = seen * inked[::step, ::step]
+                _put(target, answer, inked, place, corner, 1 if target.shape == ink.shape else 2)
         done += tile.area
     tick(1.0)
+
+
+def _put(
+    target: Array,
+    answer: Array,
+    inked: Array,
+    place: tuple[int, int],
+    corner: tuple[int, int],
+    step: int,
+) -> None:
+    """Write a tile's part of an answer into a map of the page, white paper left at zero.
+
+    Args:
+        inked: (h, w) bool, which pixels of the tile lie in blocks with ink.
+        place: where the tile begins on the page, px. corner: where it begins in the window.
+        step: px of the page per cell of the map; a map of half the resolution lies up to half a
+            cell beside the page where that does not begin at an even pixel of the grid.
+    """
+    seen = inked[::step, ::step]
+    (y, x), (row, column) = (v // step for v in place), (v // step for v in corner)
+    found = answer[row : row + seen.shape[0], column : column + seen.shape[1]]
+    part = target[y : y + found.shape[0], x : x + found.shape[1]]
+    part[:] = (found * seen[: found.shape[0], : found.shape[1]])[: part.shape[0], : part.shape[1]]

@@ -8,6 +8,7 @@ decided later, by the routing.
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields
 
 import numpy as np
@@ -19,6 +20,7 @@ from .limits import LIMITS
 
 SAMPLES = 17  # points of a curve within the cluster, exits included
 ALONE = 1.0  # cost of a half-branch that runs on into none
+CHUNK = 8192  # pairs fitted at a time, which bounds the memory
 NEVER = 1e3  # cost of what is out of the question
 FADE = 6  # power; how fast a curve goes over from the ridge point at its exit to the cubic
 
@@ -44,10 +46,11 @@ class Fits:
         """Some of them."""
         return Fits(*(getattr(self, f.name)[ids] for f in fields(self)))
 
-    def then(self, other: Fits) -> Fits:
-        """These, and after them the others."""
-        both = ((getattr(self, f.name), getattr(other, f.name)) for f in fields(self))
-        return Fits(*(np.concatenate(pair) for pair in both))
+    @staticmethod
+    def joined(parts: Sequence[Fits]) -> Fits:
+        """All of several."""
+        names = [f.name for f in fields(Fits)]
+        return Fits(*(np.concatenate([getattr(part, n) for part in parts]) for n in names))
 
     def sampled(self) -> Array:
         """(K, SAMPLES, 2) points from the first exit to the second."""
@@ -68,7 +71,7 @@ class Fits:
 
 
 class Continuations:
-    """The cubics through pairs of half-branches, each fitted when first asked for.
+    """The cubics through pairs of half-branches.
 
     Args:
         half: the course of all half-branches.
@@ -78,21 +81,45 @@ class Continuations:
     def __init__(self, half: Courses, value: Array) -> None:
         self._half = half
         self._value = value
-        self._keys = np.zeros(0, np.int64)
-        self._fits = _fit(half, np.zeros((0, 2), np.int64), value)
+        # Costs that are known, sorted by their pairs, and others not sorted in yet.
+        self._keys, self._costs = np.zeros(0, np.int64), np.zeros(0)
+        self._fresh: list[tuple[Array, Array]] = []
 
     def of(self, pairs: Array) -> Fits:
         """The fits of pairs (K, 2) of half-branches, from the first of each to the second."""
+        return Fits.joined([_fit(self._half, some, self._value) for some in _chunks(pairs)])
+
+    def cost(self, pairs: Array) -> Array:
+        """(K,) what they cost; fitted when first asked for."""
         count = len(self._half.exit)
         keys = pairs[:, 0].astype(np.int64) * count + pairs[:, 1]
-        fresh = np.setdiff1d(keys, self._keys)
-        if len(fresh):
-            fits = _fit(self._half, np.stack(np.divmod(fresh, count), -1), self._value)
-            self._keys = np.concatenate([self._keys, fresh])
-            order = np.argsort(self._keys)
-            self._keys = self._keys[order]
-            self._fits = self._fits.then(fits).pick(order)
-        return self._fits.pick(np.searchsorted(self._keys, keys))
+        wanted, place = np.unique(keys, return_inverse=True)
+        if sum(len(k) for k, _ in self._fresh) > len(self._keys) / 2:
+            self._sort_in()
+        found = np.full(len(wanted), np.nan)
+        if len(self._keys):
+            at = np.minimum(np.searchsorted(self._keys, wanted), len(self._keys) - 1)
+            known = self._keys[at] == wanted
+            found[known] = self._costs[at[known]]
+        new = np.flatnonzero(np.isnan(found))
+        for some in _chunks(new):
+            fits = _fit(self._half, np.stack(np.divmod(wanted[some], count), -1), self._value)
+            found[some] = fits.cost
+        if len(new):
+            self._fresh.append((wanted[new], found[new]))
+        return found[place.reshape(-1)]
+
+    def _sort_in(self) -> None:
+        known = [(self._keys, self._costs), *self._fresh]
+        keys, costs = (np.concatenate(parts) for parts in zip(*known, strict=True))
+        self._keys, first = np.unique(keys, return_index=True)
+        self._costs, self._fresh = costs[first], []
+
+
+def _chunks(rows: Array) -> Iterator[Array]:
+    """Parts of an array, one at least."""
+    for at in range(0, max(len(rows), 1), CHUNK):
+        yield rows[at : at + CHUNK]
 
 
 def _fit(half: Courses, pairs: Array, value: Array) -> Fits:

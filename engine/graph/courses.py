@@ -18,6 +18,7 @@ from ..values import Array, PlanarGraph
 from .evidence import Evidence
 from .limits import LIMITS
 
+CHUNK = 32768  # half-branches read at a time, which bounds the memory
 WINDOW = 16  # points of a half-branch, outside its cluster, that tell where it goes
 
 
@@ -66,12 +67,13 @@ def spoilt(graph: PlanarGraph, shape: tuple[int, ...], reach: float) -> Array:
     return found
 
 
-def read_courses(graph: PlanarGraph, evidence: Evidence) -> Courses:
+def read_courses(graph: PlanarGraph, evidence: Evidence, halves: Array | None = None) -> Courses:
     """Where every half-branch leaves its cluster, and its course from there on.
 
     Args:
         graph: the skeleton's graph, its points on the crest of the lines.
         evidence: its smoothed centerline map.
+        halves: (N,) those that are read, in this order; None = all.
     """
     value = evidence.value
     dirty = spoilt(graph, value.shape, LIMITS.course_reach * max(1.0, evidence.ridge_width / 2))
@@ -91,19 +93,33 @@ def read_courses(graph: PlanarGraph, evidence: Evidence) -> Courses:
     ahead = np.minimum(ahead, np.maximum(length - 4, 0))
     begin = np.stack([starts, stops], -1).ravel() + np.tile([1, -1], graph.branch_count) * ahead
     step = np.tile([1, -1], graph.branch_count)
+    limits = np.repeat(np.stack([starts, stops], -1), 2, axis=0)
+    if halves is not None:
+        begin, step, limits = begin[halves], step[halves], limits[halves]
+    parts = [
+        _read(graph, value, dirty, *(array[at : at + CHUNK] for array in (begin, step, limits)))
+        for at in range(0, max(len(begin), 1), CHUNK)
+    ]
+    return Courses(
+        begin.astype(np.int32), *(np.concatenate(read) for read in zip(*parts, strict=True))
+    )
+
+
+def _read(
+    graph: PlanarGraph, value: Array, dirty: Array, begin: Array, step: Array, limits: Array
+) -> tuple[Array, ...]:
+    """Some half-branches from the points (N,) on at which they begin, in steps of 1 or -1, within
+    limits (N, 2): all fields of `Courses` but the first."""
     place = begin[:, None] + step[:, None] * np.arange(WINDOW)
-    inside = (place >= np.repeat(starts, 2)[:, None]) & (place <= np.repeat(stops, 2)[:, None])
-    place = np.clip(place, 0, len(index) - 1)
+    inside = (place >= limits[:, :1]) & (place <= limits[:, 1:])
+    place = np.clip(place, 0, len(graph.points) - 1)
     weights = np.where(dirty[place], LIMITS.course_dirty, 1.0) * inside
     points = graph.points[place].astype(np.float64)
     total = np.maximum(weights.sum(1), 1e-9)
     level = (sample(value, points) * weights).sum(1) / total
     near = weights * np.exp(-((np.arange(WINDOW) / LIMITS.course_fade) ** 2))
-    center = _mean(points, near)
     outward = direction(points, near)
-    return Courses(
-        begin.astype(np.int32), points, weights, level, center, outward, _bend(points, weights)
-    )
+    return points, weights, level, _mean(points, near), outward, _bend(points, weights)
 
 
 def direction(points: Array, weights: Array) -> Array:

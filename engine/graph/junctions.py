@@ -55,9 +55,9 @@ def _rebuild(
     """Replace all clusters by curves; see the module's docstring."""
     h_group = np.where(np.repeat(inner, 2), -1, group[graph.half_vertex])
     pairs = pairs_within(h_group)
-    found = fits.of(pairs)
-    chosen = np.flatnonzero(least_cost(h_group, pairs, found.cost, ALONE))
-    chosen = chosen[~_stars(h_group, pairs[chosen], found.cost[chosen], graph, half, value)]
+    cost = fits.cost(pairs)
+    chosen = np.flatnonzero(least_cost(h_group, pairs, cost, ALONE))
+    chosen = chosen[~_stars(h_group, pairs[chosen], cost[chosen], graph, half, value)]
     through = pairs[chosen]
     alone = h_group >= 0
     alone[through] = False
@@ -79,7 +79,7 @@ def _rebuild(
 
     to_middle = np.hypot(*(middle[cluster[stems]] - exits[stems]).T)
     path = extend(half.points[stems], half.weights[stems], to_middle + LIMITS.junction_merge + 1.0)
-    smooth = told_apart(found.pick(chosen).sampled(), cluster[through[:, 0]], through, half, value)
+    smooth = told_apart(fits.of(through).sampled(), cluster[through[:, 0]], through, half, value)
     curves = np.concatenate([smooth, path])
     curve_cluster = np.concatenate([cluster[through[:, 0]], cluster[stems]]).astype(np.int64)
     is_stem = np.arange(len(curves)) >= len(chosen)

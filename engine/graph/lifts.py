@@ -29,8 +29,6 @@ ENDED = 0.35  # of the endpoint map
 FADED = 0.4  # share of the branch's own brightness below which the line is broken
 CLEAR = 1.5  # pen widths from a junction or free end; nearer, it is that one's business
 FREE, LEAST_FREE = 3.0, 8  # pen widths and px from a free end, which the endpoint map sees as well
-SIDE = 11  # samples along a side of a patch
-PITCH = 0.5  # pen widths between them
 _REACH = np.array([0.5, 1.0, 1.5, 2.0, 3.0])  # pen widths beyond a corner: overshoots
 _SHARP = np.radians(60.0)  # a turn that nobody takes for a curve
 _IN_LINE = np.cos(np.radians(35.0))  # two directions that are one line
@@ -41,10 +39,10 @@ def mark_lifts(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> Pl
     """Cut every branch where the pen may have been lifted.
 
     Reads: the final, measured lines, the page and all its maps.
-    Promises: vertices of degree two, each with its clues; no line moves. Without weights or
-    without a page the graph stays.
+    Promises: vertices of degree two, each with its clues; no line moves. Without weights, without
+    a page, or if strokes run through all corners, the graph stays.
     """
-    if evidence.scan is None or not available():
+    if evidence.scan is None or settings.corners <= -1.0 or not available():
         return graph
     cut, seen = cut_at_lifts(graph, evidence.scan, evidence.maps)
     return replace(cut, clues=clues(seen))
@@ -213,16 +211,13 @@ def evidence(course: _Course, places: Array, scan: Scan, maps: LineMaps) -> Arra
         _beyond(course, places, scan, maps),
         _between(course, places, scan, maps),
         _page(course, places, maps),
-        patches(course, places, scan, maps),
     ]
     return np.concatenate(parts, axis=1, dtype=np.float32)
 
 
 def evidence_size() -> int:
-    return _PLAIN + 3 * SIDE * SIDE
-
-
-_PLAIN = len(_SCALES) + 11 + 11 + 4 * len(_REACH) + 12 + 15
+    """F, how many numbers that is."""
+    return len(_SCALES) + 11 + 11 + 4 * len(_REACH) + 12 + 15
 
 
 def _two(a: Array, b: Array) -> list[Array]:
@@ -443,23 +438,3 @@ def _bent_forks(course: _Course) -> float:
     out = out.reshape(-1, 3, 2)
     straight = np.min([(out[:, i] * out[:, j]).sum(1) for i, j in ((0, 1), (0, 2), (1, 2))], axis=0)
     return float((straight > -_IN_LINE).mean())
-
-
-def patches(course: _Course, places: Array, scan: Scan, maps: LineMaps) -> Array:
-    """(C, 3 * SIDE * SIDE) the ink, the ridge and the ends around each place, seen in the frame of
-    the corner: the middle of its two sides points along x, and their mirror image is the same."""
-    meet, u, v = _meeting(course, places)
-    middle = u + v
-    size = np.hypot(*middle.T)
-    across = np.stack([-(u - v)[:, 1], (u - v)[:, 0]], -1)  # where the line runs straight on
-    along = np.where(size[:, None] > 0.3, middle, across)
-    along /= np.maximum(np.hypot(*along.T), 1e-9)[:, None]
-    normal = np.stack([-along[:, 1], along[:, 0]], -1)
-    offset = (np.arange(SIDE) - SIDE // 2) * PITCH * course.pen
-    y, x = (grid.ravel() for grid in np.meshgrid(offset, offset, indexing="ij"))
-    at = meet[:, None] + x[:, None] * along[:, None] + y[:, None] * normal[:, None]
-    blank = np.zeros((len(places), SIDE * SIDE), np.float32)
-    layers = [sample(scan.ink, at) / _level(course, scan.ink)]
-    layers.append(sample(maps.centerline, at) / _level(course, maps.centerline))
-    layers.append(blank if maps.endpoints is None else sample(maps.endpoints, at))
-    return np.concatenate(layers, axis=1)

@@ -142,7 +142,7 @@ class Limits:
     width_widest: float = _limit(8.0, "pen widths", "wider is no line")
     # what was most probably never drawn, dust, stubs
     undrawn_sure: float = _limit(
-        0.5, "probability", "from which on a branch goes", "training.undrawn: log.json of its run"
+        0.5, "probability", "of never having been drawn from which on a branch goes"
     )
     undrawn_longest: float = _limit(5.0, "pen widths", "a longer branch stays in any case")
     dust_speck: float = _limit(0.25, "pen widths", "of ink beyond Settings.min_length")
@@ -159,8 +159,8 @@ class Limits:
     stub_tip: float = _limit(
         1.5,
         "times",
-        "Settings.min_length: a stroke with a loose tip",
-        "72 held-out pages: none of 318 strokes shorter than this and the next one was true",
+        "Settings.min_length: a stroke with a loose tip; none of 318 as short as this and the next "
+        "limit was true on 72 held-out pages",
     )
     stub_between: float = _limit(2.0, "times", "Settings.min_length: a stroke between two lines")
 

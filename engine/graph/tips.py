@@ -44,18 +44,20 @@ def open_tips(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> Pla
     order, start = graph.halves_at
     three = order[start[vertex[stem]][:, None] + np.arange(3)]
     arms = three[three != stem[:, None]].reshape(-1, 2)
-    half = read_courses(graph, evidence)
+    used, number = np.unique(np.concatenate([arms, stem[:, None]], 1), return_inverse=True)
+    a, b, c = number.reshape(-1, 3).T  # two arms and the stem, among those that are read
+    half = read_courses(graph, evidence, used)
     fits = Continuations(half, evidence.value)
-    along = np.maximum(*(fits.of(np.stack([arms[:, k], stem], -1)).cost for k in (0, 1)))
-    across = fits.of(arms).cost
+    along = np.maximum(fits.cost(np.stack([a, c], -1)), fits.cost(np.stack([b, c], -1)))
+    across = fits.cost(np.stack([a, b], -1))
     # How long two lines overlap depends on how fast they part.
     parting = np.hypot(
-        *(half.points[arms, 0] - graph.vertices[vertex[stem]][:, None]).transpose(2, 0, 1)
+        *(graph.vertices[vertex[stem]][:, None] - half.points[np.stack([a, b], -1), 0]).T
     )
     tip = (
         (along < 2 * ALONE)
         & (across > 2 * ALONE)
-        & (long[stem] < LIMITS.tip_overlap * parting.max(1) + 2.0)
+        & (long[stem] < LIMITS.tip_overlap * parting.max(0) + 2.0)
     )
     stem = stem[tip]
     # The fork moves to the tip; its arms follow when it is resolved.

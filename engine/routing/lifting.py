@@ -52,12 +52,11 @@ def judged(clues: Array, decided: Array, net: Mapping[str, Array]) -> Array:
 
 
 def page_of(clues: Array, decided: Array) -> Array:
-    """(2 K + 2,) the habit of a page: means of the clues, plain and of the surest ones, and which
-    share of the decided corners goes on, and how many were decided."""
-    weight = np.abs(clues[:, :1]) + 1e-3
+    """(2 K + 2,) the habit of a page: the mean of the clues and how much they differ, which share
+    of the decided corners goes on, and how many were decided."""
     count = np.abs(decided).sum()
     said = [decided.sum() / (count + 1.0), count / (count + 3.0)]
-    return np.concatenate([clues.mean(0), (weight * clues).sum(0) / weight.sum(), said])
+    return np.concatenate([clues.mean(0), clues.std(0), said])
 
 
 def goes_on(log_odds: Array, bias: float) -> Array:

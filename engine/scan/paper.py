@@ -13,6 +13,9 @@ from ..values import Array
 from .ruling import without_rules
 
 _BLOCK = 8  # px; paper is estimated on a grid of such blocks
+_FRAME = _BLOCK * 8  # px; the grid, and the coarser one over it, begin here beside the middle
+_CLEARLY = 0.15  # darker than the paper by this much is no shading
+_LARGE = 24_000_000  # px; a larger page is not copied to move its grid
 
 
 def flatten_paper(gray: Array) -> Array:
@@ -25,7 +28,8 @@ def flattened(gray: Array, rules: bool = True) -> tuple[Array, bool]:
 
     Two passes: the lightest spots give a first guess of the paper; what that guess calls bare
     paper then gives its true mean and its grain, so that grain ends up around 0 and can be gated.
-    Rules and grids go as well.
+    Rules and grids go as well. The grid on which paper is estimated is counted from the middle of
+    what is dark, so that a drawing gets the same ink wherever it lies on its sheet.
 
     Args:
         gray: (H, W) float32 luminance in [0, 1]; 0 = black.
@@ -36,6 +40,27 @@ def flattened(gray: Array, rules: bool = True) -> tuple[Array, bool]:
         whether the page was ruled.
     """
     gray = np.ascontiguousarray(gray, np.float32)
+    if gray.size > _LARGE:
+        return _flattened(gray, rules)
+    above, before = (-place % _FRAME for place in _middle(gray))
+    height, width = gray.shape
+    below, after = -(height + above) % _FRAME, -(width + before) % _FRAME
+    framed = cv2.copyMakeBorder(gray, above, below, before, after, cv2.BORDER_REPLICATE)
+    ink, ruled = _flattened(framed, rules)
+    return np.ascontiguousarray(ink[above : above + height, before : before + width]), ruled
+
+
+def _middle(gray: Array) -> tuple[int, int]:
+    """Row and column of the middle of all that is clearly darker than the paper, px."""
+    dark = np.maximum(np.float32(np.median(gray[::4, ::4]) - _CLEARLY) - gray, 0)
+    sums = dark.sum(1, dtype=np.float64), dark.sum(0, dtype=np.float64)
+    mass = max(sums[0].sum(), 1e-9)
+    row, column = (int(np.floor((s * np.arange(len(s))).sum() / mass + 0.5)) for s in sums)
+    return row, column
+
+
+def _flattened(gray: Array, rules: bool) -> tuple[Array, bool]:
+    """The same for a page whose blocks begin at its corner."""
     # In place wherever it can be: a page of 8192 px has 256 MiB in every such array.
     rough = _light_paper(gray)
     np.subtract(1.0, np.divide(gray, rough, out=rough), out=rough)

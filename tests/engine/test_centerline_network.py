@@ -77,6 +77,22 @@ def test_white_paper_costs_nothing():
     assert sum(asked) < 0.03 * blank.size
 
 
+@pytest.mark.parametrize("shift", [(1, 0), (0, 2), (7, 13)])
+def test_a_drawing_is_seen_alike_wherever_it_lies(shift):
+    """A network that halves its maps must not see where on its sheet a drawing lies."""
+    drawing = page_of((20, 30, 230, 60), (60, 20, 80, 235), (200, 40, 90, 220), size=(256, 256))
+    maps = []
+    for down, right in ((128, 128), (128 + shift[0], 128 + shift[1])):
+        sheet = np.zeros((512, 512), np.float32)
+        sheet[down : down + 256, right : right + 256] = drawing
+        found = trace(sheet)
+        assert found.centerline.max() > 0.9
+        seen = [m for m in vars(found).values() if m is not None]
+        maps.append([m[down : down + 256, right : right + 256] for m in seen])
+    for one, other in zip(*maps, strict=True):
+        np.testing.assert_allclose(one, other, atol=1e-4)
+
+
 def test_progress_rises_and_may_cancel():
     ink = np.zeros((600, 3000), np.float32)
     ink[300:303] = 1

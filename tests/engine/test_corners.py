@@ -6,11 +6,12 @@ import json
 from dataclasses import replace
 from pathlib import Path
 
+import cv2
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from involute.engine import Drawing, InvoluteError, Settings
+from involute.engine import Drawing, InvoluteError, Settings, vectorize
 from involute.engine.formats.drawing_json import dumps, read
 from involute.engine.graph.lifts import cut_at_lifts, evidence_size
 from involute.engine.graph.topology import join
@@ -225,3 +226,19 @@ def test_clues_are_kept_in_files(tmp_path: Path) -> None:
     opened = Drawing.load(tmp_path / "box.json")
     np.testing.assert_array_equal(opened.graph.clues, graph.clues)
     np.testing.assert_array_equal(opened.ask_again().routing.partner, drawing.routing.partner)
+
+
+def test_a_page_is_asked_for_its_corners_only_when_wanted() -> None:
+    page = np.full((260, 300), 255, np.uint8)
+    cv2.polylines(page, [np.rint(BOX * 1.5).astype(np.int32)], True, 0, 3, cv2.LINE_AA)
+    plain = vectorize(page)
+    assert [s.closed for s in plain.strokes] == [True]
+    lifted = vectorize(page, Settings(corners=1.0))
+    assert len(lifted.corners) >= 4
+    assert len(lifted.graph.clues) == len(lifted.corners)
+    assert len(lifted.strokes) >= 4
+    around = lifted.with_corners(-1.0)
+    assert [s.closed for s in around.strokes] == [True]
+    asked = around.reroute(around.corners[0].index, []).ask_again()
+    assert not asked.corners[0].pairs
+    assert all(0.0 < way.probability < 1.0 for c in asked.corners for way in c.alternatives)

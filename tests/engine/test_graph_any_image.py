@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tracemalloc
 from itertools import pairwise
 
 import cv2
@@ -89,3 +90,15 @@ def test_chains_use_every_edge_once(seed: int, count: int) -> None:
         chain = order[first:last]
         assert np.array_equal(source[chain[1:]], source[back[chain[:-1]]])
         assert not is_node[source[chain[1:]]].any()
+
+
+def test_memory_grows_no_faster_than_the_page() -> None:
+    """A page of nothing but crossings (435 MB at 512 px when all mergers were fitted at once)."""
+    y, x = np.mgrid[:384, :384]
+    image = np.where((x % 9 < 1) | (y % 9 < 1), 255, 0).astype(np.uint8)
+    tracemalloc.start()
+    graph = traced(image)
+    peak = tracemalloc.get_traced_memory()[1] / 2**20
+    tracemalloc.stop()
+    assert len(graph.junctions) > 1500
+    assert peak < 120

@@ -274,6 +274,18 @@ def test_shadow_and_grain_are_no_ink():
     assert (ink[clean == 255] > 0.2).mean() < 1e-3
 
 
+@pytest.mark.parametrize("shift", [(1, 0), (0, 2), (3, 3)])
+def test_a_drawing_has_the_same_ink_wherever_it_lies(shift):
+    rng = np.random.default_rng(1)
+    shade = np.linspace(0.75, 0.95, 320)[None] + rng.normal(0, 0.01, (240, 320))
+    gray = np.minimum(page() / 255.0, 1) * shade
+    down, right = shift
+    moved = cv2.copyMakeBorder(gray, down, 0, right, 0, cv2.BORDER_REPLICATE)
+    ink, again = flatten_paper(gray), flatten_paper(moved)[down:, right:]
+    assert ink.max() > 0.9
+    np.testing.assert_allclose(ink, again, atol=1e-3)
+
+
 def test_specks_do_not_pass_for_the_pen():
     line = 255.0 - drawn((400, 600), 2, [[30, 200], [570, 260]])
     rng = np.random.default_rng(3)

@@ -1,14 +1,12 @@
 """Pages with the lifts of many hands, traced, and at every corner whether a stroke goes on.
 
-`python -m training.corners.lift_pages --data DIR --out FILE --pages N` draws pages of true strokes
-with random habits (`synthesis.pen_lifts`) as hands draw and scanners see them, traces them with
-our own stages and keeps the evidence at every place where the pen may have been lifted. Started
-again with the same FILE, it goes on where it stopped.
+Pages of true strokes with random habits (`synthesis.pen_lifts`) are drawn as hands draw and
+scanners see them and traced with our own stages; what is kept is the evidence at every place where
+the pen may have been lifted.
 """
 
 from __future__ import annotations
 
-import argparse
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from multiprocessing import get_context
@@ -31,7 +29,7 @@ from ..routing.traced import MOST_FALSE, look_ink, look_scan, on_canvas
 Array = np.ndarray
 
 _SCANNED = 0.75  # share of the pages; the others are even ink
-_SIZE = (0.6, 1.0)  # of a page of the benchmark's size: smaller ones are traced sooner
+_SIZE = (0.55, 0.9)  # of a page of the benchmark's size: smaller ones are traced sooner
 _PEN = 4.0  # px; a habit moves ends by shares of this
 _PIECE = 40  # pages between two writings of the file
 JOINED, LIFTED, UNKNOWN = 1, 0, -1
@@ -53,33 +51,23 @@ class Corners:
             return Corners(*(file[name] for name in ("evidence", "truth", "page", "habit")))
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--data", type=Path, required=True, help="folder of SOURCE.npz drawings")
-    parser.add_argument("--out", type=Path, required=True)
-    parser.add_argument("--pages", type=int, default=800)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--jobs", type=int, default=1, help="parallel processes")
-    parser.add_argument("--held-out", action="store_true", help="from the validation drawings")
-    args = parser.parse_args()
+def gathered(
+    path: Path, pages: int, data: Path, held_out: bool = False, seed: int = 1, jobs: int = 1
+) -> Corners:
+    """The corners of so many pages, from a file, as far as it goes, and made."""
     found: list[tuple[Array, Array, float]] = []
-    done = 0
-    if args.out.exists():
-        saved = Corners.load(args.out)
-        done = len(saved.habit)
-        rows = [saved.page == number for number in range(done)]
-        found = [
-            (saved.evidence[own], saved.truth[own], habit)
-            for own, habit in zip(rows, saved.habit, strict=True)
-        ]
-    work = args.data, args.held_out, args.seed
-    with ProcessPoolExecutor(args.jobs, get_context("spawn"), _prepare, work) as pool:
-        while done < args.pages:
-            numbers = range(done, min(done + _PIECE, args.pages))
-            found += pool.map(_corners, numbers)
-            done = numbers.stop
-            _save(args.out, found)
-            print(f"{done} pages, {sum(len(f[1]) for f in found)} corners", flush=True)
+    if path.exists():
+        saved = Corners.load(path)
+        for number, habit in enumerate(saved.habit):
+            own = saved.page == number
+            found.append((saved.evidence[own], saved.truth[own], float(habit)))
+    work = data, held_out, seed
+    with ProcessPoolExecutor(jobs, get_context("spawn"), _prepare, work) as pool:
+        while len(found) < pages:
+            found += pool.map(_corners, range(len(found), min(len(found) + _PIECE, pages)))
+            _save(path, found)
+            print(f"{len(found)} pages, {sum(len(f[1]) for f in found)} corners", flush=True)
+    return Corners.load(path)
 
 
 def _save(path: Path, found: list[tuple[Array, Array, float]]) -> None:
@@ -104,10 +92,11 @@ def _prepare(data: Path, held_out: bool, seed: int) -> None:
 def _corners(number: int) -> tuple[Array, Array, float]:
     """Evidence and truth of one page, and its habit; none when it is no example."""
     rng, settings = np.random.default_rng((_seed, number)), Settings()
-    strokes = next(endless(rng, _library))
     size = rng.uniform(*_SIZE)
-    strokes = loosened(rng, [line * size for line in strokes])
+    strokes = [line * size for line in next(endless(rng, _library))]
     habit = Habit.drawn(rng, _PEN)
+    if habit.corners:  # a hand that lifts is looser everywhere
+        strokes = loosened(rng, strokes)
     strokes = on_canvas(lifted(rng, strokes, habit))
     if strokes:
         look = look_scan if rng.random() < _SCANNED else look_ink
@@ -128,7 +117,3 @@ def truth_at(graph: PlanarGraph, page: object) -> Array:
     joined = page.partner[halves[:, 0]] == halves[:, 1]
     owned = (page.stroke[graph.offsets[:-1]] >= 0)[halves >> 1].all(1)
     return np.where(owned, joined, UNKNOWN).astype(np.int8)
-
-
-if __name__ == "__main__":
-    main()

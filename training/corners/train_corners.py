@@ -1,33 +1,34 @@
 """Learn at which corners the pen was lifted, for `engine/routing/lifting.py`.
 
-`python -m training.corners.train_corners --train FILE ... --held-out FILE` trains on what
-`lift_pages` gathered and writes engine/weights/corners.npz; the held-out pages choose when to stop.
+`python -m training.corners.train_corners --data DIR --run RUN --pages 800` draws and traces pages
+with the lifts of many hands (`lift_pages`; RUN/train.npz and RUN/held_out.npz, started again it
+goes on), trains a small network in a minute and writes engine/weights/corners.npz; the held-out
+pages choose when to stop. The figures go to RUN/log.json.
 """
 
 from __future__ import annotations
 
 import argparse
 import json
+from collections.abc import Sequence
 from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 import torch
 from involute.engine.graph.clues import WEIGHTS
-from involute.engine.graph.lifts import SIDE
 from torch import nn
 
-from .. import digests
-from .lift_pages import UNKNOWN, Corners
+from .. import digests, lineage
+from .lift_pages import UNKNOWN, Corners, gathered
 
 Array = np.ndarray
 Tensor = torch.Tensor
 
 CLUES = 8  # numbers that are kept of each corner
-_SEE, _JUDGE = (64, 32), (32,)  # widths of the hidden layers
+_SEE, _JUDGE = (48,), (24,)  # widths of the hidden layers
 _PAGES = 24  # pages of a batch
 _DECIDED = 0.3  # share of the pages on which a user has decided some corners
-_BLIND = 0.08  # share of the pages on which the patches, or all maps of the network, are hidden
 
 
 class Lifts(nn.Module):
@@ -58,13 +59,14 @@ def _about(clues: Tensor, page: Tensor, decided: Tensor) -> Tensor:
     def total(values: Tensor) -> Tensor:
         return torch.zeros(pages, values.shape[1]).index_add_(0, page, values)
 
-    weight = clues[:, :1].abs() + 1e-3
-    number = total(torch.ones_like(weight))
+    number = total(torch.ones_like(clues[:, :1])).clamp(min=1)
+    mean = total(clues) / number
+    spread = (total((clues - mean[page]) ** 2) / number + 1e-9).sqrt()
     count, said = total(decided.abs()[:, None]), total(decided[:, None])
     return torch.cat(
         [
-            total(clues) / number.clamp(min=1),
-            total(weight * clues) / total(weight).clamp(min=1e-6),
+            mean,
+            spread,
             said / (count + 1),
             count / (count + 3),
         ],
@@ -90,24 +92,6 @@ def weights(model: Lifts) -> dict[str, Array]:
     return {name: np.ascontiguousarray(value, np.float32) for name, value in found.items()}
 
 
-def joined(paths: list[Path]) -> Corners:
-    """All corners of several files; pages are numbered on."""
-    parts = [Corners.load(path) for path in paths]
-    first = np.cumsum([0] + [len(part.habit) for part in parts])
-    return Corners(
-        np.concatenate([part.evidence for part in parts]),
-        np.concatenate([part.truth for part in parts]),
-        np.concatenate([part.page + n for part, n in zip(parts, first, strict=False)]),
-        np.concatenate([part.habit for part in parts]),
-    )
-
-
-def mirrored(evidence: Tensor) -> Tensor:
-    """The same corners seen in a mirror: only the patches change."""
-    patch = evidence[:, -3 * SIDE * SIDE :].reshape(-1, 3, SIDE, SIDE).flip(2)
-    return torch.cat([evidence[:, : -3 * SIDE * SIDE], patch.reshape(len(patch), -1)], 1)
-
-
 def train(data: Corners, held: Corners, steps: int, seed: int, dropout: float) -> Lifts:
     """The weights that are best on the held-out pages."""
     torch.manual_seed(seed)
@@ -117,7 +101,7 @@ def train(data: Corners, held: Corners, steps: int, seed: int, dropout: float) -
     spread = evidence.std(0).clamp(min=0.02)
     model = Lifts(evidence.mean(0), spread, dropout)
     rate = 2e-3
-    optimizer = torch.optim.AdamW(model.parameters(), lr=rate, weight_decay=0.05)
+    optimizer = torch.optim.AdamW(model.parameters(), lr=rate, weight_decay=0.1)
     plan = torch.optim.lr_scheduler.OneCycleLR(optimizer, rate, total_steps=steps)
     order = np.argsort(data.page, kind="stable")
     bounds = np.searchsorted(data.page[order], np.arange(len(data.habit) + 1))
@@ -138,7 +122,7 @@ def train(data: Corners, held: Corners, steps: int, seed: int, dropout: float) -
             model.eval()
             figure = figures(model, held)
             model.train()
-            print(step + 1, round(float(loss), 3), figure, flush=True)
+            print(step + 1, round(float(loss.detach()), 3), figure, flush=True)
             if figure["loss"] < best:
                 best = figure["loss"]
                 kept = {name: value.clone() for name, value in model.state_dict().items()}
@@ -149,8 +133,6 @@ def train(data: Corners, held: Corners, steps: int, seed: int, dropout: float) -
 def _loss(
     rng: np.random.Generator, model: Lifts, seen: Tensor, page: Array, truth: Array
 ) -> Tensor:
-    if rng.random() < 0.5:
-        seen = mirrored(seen)
     page = torch.from_numpy(page)
     decided = np.zeros(len(truth), np.float32)
     share = np.where(rng.random(_PAGES) < _DECIDED, rng.uniform(0, 0.4, _PAGES), 0)
@@ -200,20 +182,28 @@ def _nll(score: Array, truth: Array) -> float:
     return float(np.logaddexp(0, np.where(truth > 0, -score, score)).mean())
 
 
-def main() -> None:
+def main(argv: Sequence[str] | None = None) -> None:
+    """The command line."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--train", type=Path, nargs="+", required=True)
-    parser.add_argument("--held-out", type=Path, required=True)
-    parser.add_argument("--out", type=Path, default=WEIGHTS)
-    parser.add_argument("--steps", type=int, default=2000)
+    parser.add_argument("--data", type=Path, required=True, help="folder of SOURCE.npz drawings")
+    parser.add_argument("--run", type=Path, required=True)
+    parser.add_argument("--pages", type=int, default=800, help="and an eighth of that, held out")
+    parser.add_argument("--jobs", type=int, default=1, help="parallel processes")
+    parser.add_argument("--steps", type=int, default=500)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--dropout", type=float, default=0.2)
-    args = parser.parse_args()
-    held = Corners.load(args.held_out)
-    model = train(joined(args.train), held, args.steps, args.seed, args.dropout)
-    print(json.dumps(figures(model, held), indent=1))
+    parser.add_argument("--dropout", type=float, default=0.3)
+    parser.add_argument("--out", type=Path, default=WEIGHTS)
+    args = parser.parse_args(argv)
+    lineage.note_run(args.run, args, torch=torch.__version__)
+    work = {"data": args.data, "seed": args.seed, "jobs": args.jobs}
+    data = gathered(args.run / "train.npz", args.pages, **work)
+    held = gathered(args.run / "held_out.npz", max(args.pages // 8, 1), held_out=True, **work)
+    model = train(data, held, args.steps, args.seed, args.dropout)
+    found = figures(model, held)
+    print(json.dumps(found, indent=1))
+    (args.run / "log.json").write_text(json.dumps(found, indent=1), "utf-8")
     np.savez(args.out, **weights(model))
-    digests.note(args.out)
+    digests.note(args.out, args.run)
 
 
 if __name__ == "__main__":

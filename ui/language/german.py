@@ -188,10 +188,10 @@ TEXTS = {
         "0 behält jedes Zittern der Hand, 1 ist sehr glatt"
     ),
     "Pen Lifts": "Absetzen",
-    "Where strokes end though only two lines meet: 0 where it looks as if the pen was lifted, "
-    "-1 nowhere, 1 wherever it may have been": (
-        "Wo Striche enden, obwohl sich nur zwei Linien treffen: 0 wo es aussieht, als sei der "
-        "Stift abgesetzt worden, -1 nirgends, 1 überall, wo es sein kann"
+    "Where strokes end though only two lines meet: -1 nowhere, 0 where it looks as if the pen was "
+    "lifted, 1 wherever it may have been": (
+        "Wo Striche enden, obwohl sich nur zwei Linien treffen: -1 nirgends, 0 wo es aussieht, als "
+        "sei der Stift abgesetzt worden, 1 überall, wo es sein kann"
     ),
     "Junctions": "Kreuzungen",
     "What decides which lines continue through a junction": (
