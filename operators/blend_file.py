@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import sys
 from collections.abc import Iterable, Iterator, Sequence
@@ -18,6 +19,9 @@ if TYPE_CHECKING:
     from ..engine import Drawing
 
 
+_COMPRESSED_END = b"\xb1\xea\x92\x8f"  # of the table of Zstandard frames
+
+
 def write(drawings: Sequence[tuple[str, Drawing]], path: str | PathLike[str]) -> None:
     """Write one Grease Pencil object per drawing, with a camera that shows the first.
 
@@ -26,7 +30,8 @@ def write(drawings: Sequence[tuple[str, Drawing]], path: str | PathLike[str]) ->
         path: the .blend file, made or overwritten.
 
     Raises:
-        InvoluteError: Blender's Python module can't be loaded, or the file can't be written.
+        InvoluteError: Blender's Python module can't be loaded.
+        OSError: the file can't be written.
     """
     scene = _empty_scene()
     for name, drawing in drawings:
@@ -113,8 +118,6 @@ def _as_text(name: str) -> str:
 def _save(path: str | PathLike[str]) -> None:
     import bpy
 
-    from ..engine import InvoluteError
-
     target = Path(fspath(path)).absolute()
     target.unlink(missing_ok=True)  # of a file that is there Blender would keep a copy beside it
     try:
@@ -123,9 +126,11 @@ def _save(path: str | PathLike[str]) -> None:
                 filepath=str(target), check_existing=False, copy=True, compress=True
             )
     except RuntimeError as error:
-        raise InvoluteError(f"Can't write {target}: {_reason(error)}") from error
-    if not target.exists():
-        raise InvoluteError(f"Can't write {target}; is the disk full?")
+        # As any other writer tells it: whoever moves the file into its place knows its name.
+        raise _as_os_error(str(error)) from error
+    # Blender says that all went well though the disk was full in the middle of it.
+    if not target.exists() or not target.read_bytes().endswith(_COMPRESSED_END):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
 
 @contextmanager
@@ -163,15 +168,19 @@ def _frame_size(render: object, size: tuple[int, int]) -> None:
     render.resolution_percentage = 100
 
 
-def _reason(error: RuntimeError) -> str:
-    text = str(error).strip().splitlines()
-    return (text[-1] if text else "unknown reason").removeprefix("Error: ").rstrip(".") + "."
+def _as_os_error(said: str) -> OSError:
+    """What Blender says of a file that it can't write, as the system would have said it."""
+    lines = said.strip().splitlines() or ["unknown reason"]
+    for number in (errno.ENOSPC, errno.EACCES, errno.EROFS, errno.EDQUOT, errno.EFBIG):
+        if os.strerror(number) in said:
+            return OSError(number, os.strerror(number))
+    return OSError(errno.EIO, lines[-1].removeprefix("Error: ").rstrip("."))
 
 
 BLEND = Format(
     suffix=".blend",
     about="Grease Pencil strokes in a Blender file; holds many drawings, and sequences",
-    endings=(b"\xb1\xea\x92\x8f", b"ENDB"),  # compressed (a table of Zstandard frames), or not
+    endings=(_COMPRESSED_END, b"ENDB"),
     write_many=write,
     write_sequence=write_sequence,
 )

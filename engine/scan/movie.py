@@ -15,6 +15,9 @@ from ..values import Array
 SUFFIXES = frozenset({".avi", ".m4v", ".mkv", ".mov", ".mp4", ".mpg", ".ogv", ".webm"})
 
 
+_MOST = 1_000_000  # images; as many as a timeline has frames
+
+
 def is_movie(path: str | PathLike[str]) -> bool:
     return Path(path).suffix.lower() in SUFFIXES
 
@@ -26,7 +29,12 @@ def image_count(path: str | PathLike[str]) -> int:
         InvoluteError: it can't be read as a movie.
     """
     with _opened(path) as clip:
-        return max(1, int(clip.get(cv2.CAP_PROP_FRAME_COUNT)))
+        count = clip.get(cv2.CAP_PROP_FRAME_COUNT)
+    if not count >= 1:  # some clips don't say, or say what is no number
+        return 1
+    if count > _MOST:
+        raise InvoluteError(f"{Path(path).name} says it has {count:.0f} images; it is damaged.")
+    return int(count)
 
 
 def read_image(path: str | PathLike[str], index: int) -> Array:

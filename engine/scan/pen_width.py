@@ -11,6 +11,7 @@ from ..values import Array
 from .paper import flatten_paper
 from .picture import unit
 
+_FINEST = 1.5  # px; a finer pen than this beside a broad one is as likely grain
 _WINDOW, _WINDOWS = 512, 16  # px and number of the places where the pen is measured
 
 
@@ -32,7 +33,10 @@ def _typical(widths: list[Array]) -> float:
 
     Where a page has two pens, a fine and a broad one, the fine one: it is the harder to see.
     """
-    every = finer_pen(np.sort(np.concatenate([np.zeros(0), *widths])))
+    every = np.sort(np.concatenate([np.zeros(0), *widths]))
+    finer = finer_pen(every)
+    if len(finer) and finer.mean() > _FINEST:
+        every = finer
     middle = every[len(every) // 4 : -(-3 * len(every) // 4)]
     return float(middle.mean()) if middle.size else 0.0
 

@@ -31,7 +31,17 @@ def write_blend(drawings, path: Path) -> None:
     path.write_text(" ".join(name for name, _ in drawings) + " blend")
 
 
-BLEND = Format(suffix=".blend", about="a stand-in", endings=(b"blend",), write_many=write_blend)
+def write_moving(name: str, frames, path: Path) -> None:
+    path.write_text(" ".join(str(frame) for frame, _ in frames) + " blend")
+
+
+BLEND = Format(
+    suffix=".blend",
+    about="a stand-in",
+    endings=(b"blend",),
+    write_many=write_blend,
+    write_sequence=write_moving,
+)
 
 
 def trace(*arguments) -> int:
@@ -165,6 +175,31 @@ def test_all_drawings_stay_in_a_shared_blend(tmp_path):
     page(scans / "p1.png", 12)
     assert resumed(scans, "-o", out, report=report) == [True, True]
     assert out.read_text() == "edited blend"
+
+
+@pytest.mark.parametrize("out", ["shot.blend", "shot"])
+def test_a_sequence_keeps_finished_work(out, tmp_path, capsys):
+    scans, report = tmp_path / "in", tmp_path / "report.json"
+    for number in (1, 2):
+        page(scans / f"p{number}.png", number)
+    words = [scans, "--sequence", "-o", tmp_path / out]
+    words += [] if out.endswith(".blend") else ["--format", "svg"]
+    assert resumed(*words, report=report) == [False, False]
+    made = tmp_path / out if out.endswith(".blend") else tmp_path / out / "p1.svg"
+    before = made.stat().st_mtime_ns
+    assert resumed(*words, report=report) == [True, True]
+    assert made.stat().st_mtime_ns == before
+    edited = "edited " + made.read_text()
+    made.write_text(edited)
+    page(scans / "p2.png", 9)
+    assert resumed(*words, report=report) in ([True, False], [True, True])
+    assert made.read_text() == edited
+    assert "edited since" in capsys.readouterr().err
+    assert trace(*words, "--resume", "--overwrite") == 0
+    assert made.read_text() != edited
+    made.write_text("by hand")
+    assert trace(*words) == 2
+    assert made.read_text() == "by hand"
 
 
 # --- names -----------------------------------------------------------------------------------

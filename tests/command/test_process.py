@@ -184,6 +184,23 @@ def test_numbers_that_are_times_are_ranks(tmp_path):
     assert [image["frame"] for image in json.loads(report.read_text())["images"]] == [1, 2, 3]
 
 
+def test_a_blend_that_does_not_fit_is_not_there(tmp_path):
+    """Blender itself says that all went well, and leaves the first part of the file."""
+    pytest.importorskip("bpy")
+    resource = pytest.importorskip("resource")
+    scan, out = page(tmp_path / "a.png"), tmp_path / "out"
+    out.mkdir()
+    (out / "a.blend").write_text("an older one")
+    words = [scan, "-o", out, "--format", "blend", "--overwrite"]
+    done = run(*words, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (30_000,) * 2))
+    assert done.returncode == 1
+    assert b"a.blend" in done.stderr
+    assert [path.name for path in out.iterdir()] == ["a.blend"]
+    assert (out / "a.blend").read_text() == "an older one"
+    assert run(*words).returncode == 0
+    assert (out / "a.blend").stat().st_size > 30_000
+
+
 # --- being stopped ---------------------------------------------------------------------------
 
 
