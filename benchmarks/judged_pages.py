@@ -58,5 +58,6 @@ def pages(folder: Path = DATA) -> list[JudgedPage]:
         medium, *_, paper = (part.strip() for part in entry["style"].split(","))
         stem = folder / entry["name"]
         image, truth = stem.with_suffix(".jpg"), stem.with_suffix(".svg")
+        image = image if image.exists() else stem.with_suffix(".png")
         result.append(JudgedPage(entry["name"], image, truth, medium, paper))
     return sorted(result, key=lambda page: page.name)

@@ -50,6 +50,12 @@ class LineMaps:
     junctions, endpoints: heatmaps in [0, 1], or None.
     half_width: half the width of the line, in working pixels, valid near the ridge; or None.
     solid: probability of a solid black area, or None.
+    doubled: probability that two lines or more share the ridge, valid near it; or None.
+    apart: how far apart these lie, in working pixels, valid where they do; or None.
+    clean: the ridge of the line that several pencil strokes mean; where each line is drawn once,
+        the same as centerline; or None.
+    features: (F, H / 2, W / 2) float32, what the maps are made of, to be sampled by whoever reads
+        the picture; 0 on blank paper; or None.
     """
 
     centerline: Array
@@ -57,6 +63,10 @@ class LineMaps:
     endpoints: Array | None = None
     half_width: Array | None = None
     solid: Array | None = None
+    doubled: Array | None = None
+    apart: Array | None = None
+    clean: Array | None = None
+    features: Array | None = None
 
 
 @dataclass(frozen=True, eq=False)

@@ -3,6 +3,7 @@
 `python -m synthesis.held_out_pages --data DIR --out DIR` draws validation drawings (no network
 has seen them) with the media and papers of the centerline training and writes NAME.jpg, NAME.svg
 and manifest.json, so that `python -m benchmarks.quality --data DIR` and the others run on them.
+Other kinds: lines of one bit (NAME.png), and rough sketches of which the clean lines are the truth.
 """
 
 from __future__ import annotations
@@ -10,14 +11,16 @@ from __future__ import annotations
 import argparse
 import json
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import cv2
 import numpy as np
 
 from .composed_pages import SOURCES, Library
-from .media import MEDIA, draw, line_spacing, sample
+from .media import DIGITAL, MEDIA, NUDGE, draw, line_spacing, sample
 from .pen_lifts import KINDS, Habit, lifted
+from .pencilling import Hand, pencilled
 from .sheet_of_paper import paper, scan, shadow
 from .true_graph import single_lines
 
@@ -34,6 +37,7 @@ _PENS = {"technical pen": (2, 4), "ink": (2, 5), "pencil": (2, 5), "soft pencil"
     "charcoal": (3, 7),
     "ballpoint": (1.8, 3.5),
 }
+_ROUGH_PENS = {"pencil": (1.5, 3), "soft pencil": (2, 4), "ballpoint": (1.2, 2.2)}
 
 
 def main() -> None:
@@ -43,6 +47,7 @@ def main() -> None:
     parser.add_argument("--pages", type=int, default=48)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--only", nargs="+", choices=list(SOURCES), help="these sets alone")
+    parser.add_argument("--look", default="paper", choices=list(_LOOKS), help="how it is drawn")
     parser.add_argument(
         "--habit", default="as drawn", choices=KINDS, help="where the pen is lifted"
     )
@@ -51,18 +56,19 @@ def main() -> None:
     args.out.mkdir(parents=True, exist_ok=True)
     rng = np.random.default_rng(args.seed)
     library = Library.load(args.data, held_out=True)
-    media = [name for name in _PENS if name in MEDIA]
     names = args.only or [name for name in _SOURCES if name in library.sources]
     drawings = _richest(library, names) if args.each else endless(rng, library, args.only)
     manifest = []
     for number, strokes in zip(range(args.pages), drawings, strict=False):
-        name, medium = f"page_{number:03d}", media[number % len(media)]
-        pen = float(rng.uniform(*_PENS[medium]))
+        name = f"page_{number:03d}"
+        pen = float(rng.uniform(*list(_PENS.values())[number % len(_PENS)]))
         strokes = lifted(rng, strokes, Habit.drawn(rng, pen, args.habit))
-        image, sheet = _drawn(rng, strokes, medium, pen)
-        cv2.imwrite(str(args.out / f"{name}.jpg"), image, [cv2.IMWRITE_JPEG_QUALITY, 88])
+        image, style = _LOOKS[args.look](rng, strokes, number, pen)
+        if args.look == "one bit":  # JPEG would bring grey in
+            cv2.imwrite(str(args.out / f"{name}.png"), image)
+        else:
+            cv2.imwrite(str(args.out / f"{name}.jpg"), image, [cv2.IMWRITE_JPEG_QUALITY, 88])
         (args.out / f"{name}.svg").write_text(_svg(strokes, image.shape), "utf-8")
-        style = f"{medium}, {sheet}"
         manifest.append({"name": name, "source": "", "style": style, "strokes": len(strokes)})
     (args.out / "manifest.json").write_text(json.dumps(manifest, indent=1), "utf-8")
 
@@ -103,14 +109,54 @@ def _length(strokes: list[Array]) -> float:
     return float(sum(np.hypot(*np.diff(line, axis=0).T).sum() for line in strokes))
 
 
-def _drawn(
-    rng: np.random.Generator, strokes: list[Array], medium: str, pen: float
+def _on_paper(
+    rng: np.random.Generator, strokes: list[Array], number: int, pen: float
 ) -> tuple[Array, str]:
-    """The page as a scanner sees it, (H, W) uint8, and what its paper is; pen: its width, px."""
-    width, height = np.ceil(np.max([line.max(0) for line in strokes], 0) + _MARGIN).astype(int)
+    """The page as a scanner sees it, (H, W) uint8, and its medium and paper; pen: its width, px."""
+    medium = list(_PENS)[number % len(_PENS)]
     samples = sample([line.astype(np.float32) for line in strokes], _SIDE)
     pen = min(pen, 0.8 * line_spacing(samples, _SIDE))
     ink, _ = draw(rng, samples, MEDIA[medium], pen, _SIDE)
+    page, sheet = _scanned(rng, ink)
+    return _cropped(page, strokes), f"{medium}, {sheet}"
+
+
+def _one_bit(
+    rng: np.random.Generator, strokes: list[Array], number: int, pen: float
+) -> tuple[Array, str]:
+    """Lines of 1, 2, 3 or 4 px in turn without any grey, as a drawing program makes them."""
+    pen = 1.0 + number % 4
+    samples = sample([line.astype(np.float32) + NUDGE for line in strokes], _SIDE)
+    ink, _ = draw(rng, samples, DIGITAL["one bit"], pen, _SIDE)
+    return _cropped(1 - ink, strokes), f"one bit {pen:.0f} px, white"
+
+
+def _sketched(
+    rng: np.random.Generator, strokes: list[Array], number: int, pen: float
+) -> tuple[Array, str]:
+    """Every line said by about 2, 4 or 7 pencil strokes in turn; the truth is the line."""
+    medium = list(_ROUGH_PENS)[number % len(_ROUGH_PENS)]
+    each = (2, 4, 7)[number % 3]
+    lines = [line.astype(np.float32) for line in strokes]
+    pen = float(rng.uniform(*_ROUGH_PENS[medium]))
+    spacing = line_spacing(sample(lines, _SIDE), _SIDE)
+    hand = replace(Hand.any(rng, pen, spacing), strokes=float(each))
+    pencil, press = pencilled(rng, lines, hand)
+    ink: Array = np.zeros((_SIDE, _SIDE), np.float32)
+    for low, high in ((0, 0.5), (0.5, 0.75), (0.75, 2)):  # from light to dark
+        chosen = [s for s, p in zip(pencil, press, strict=True) if low <= p < high]
+        if chosen:
+            layer, _ = draw(rng, sample(chosen, _SIDE), MEDIA[medium], pen, _SIDE)
+            ink = 1 - (1 - ink) * (1 - layer * min(high, 1.0))
+    page, sheet = _scanned(rng, ink)
+    return _cropped(page, strokes), f"{medium}, {each} strokes a line, {sheet}"
+
+
+_LOOKS = {"paper": _on_paper, "one bit": _one_bit, "rough": _sketched}
+
+
+def _scanned(rng: np.random.Generator, ink: Array) -> tuple[Array, str]:
+    """Ink on a sheet, scanned, as luminance, and what its paper is."""
     sheet = str(rng.choice(["white", "paper", "shadow"], p=[0.4, 0.35, 0.25]))
     page = np.ones_like(ink)
     if sheet != "white":
@@ -118,8 +164,13 @@ def _drawn(
     gray = page * (1 - ink) + rng.uniform(0, 0.1) * ink
     if sheet == "shadow":
         gray = gray * shadow(rng, _SIDE)
-    gray = scan(rng, gray) if sheet != "white" else gray
-    return np.round(np.clip(gray[:height, :width], 0, 1) * 255).astype(np.uint8), sheet
+    return (scan(rng, gray) if sheet != "white" else gray), sheet
+
+
+def _cropped(gray: Array, strokes: list[Array]) -> Array:
+    """(H, W) uint8: the part of the page on which there is something."""
+    width, height = np.ceil(np.max([line.max(0) for line in strokes], 0) + _MARGIN).astype(int)
+    return np.round(np.clip(gray[:height, :width], 0, 1) * 255).astype(np.uint8)
 
 
 def _svg(strokes: list[Array], shape: tuple[int, ...]) -> str:

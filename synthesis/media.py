@@ -7,7 +7,7 @@ edge of the ink AND the sample it belongs to, with its pen width and pressure.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from itertools import pairwise
 
@@ -20,6 +20,8 @@ from .line_art import Array, Rng, Strokes
 STEP = 0.5  # px between samples along a stroke
 MARGIN = 30  # px around the page in which ink still matters
 _FAR = 99.0
+WIDEST = 32.0  # px of half-width
+NUDGE = 0.013  # px; where a line of one bit would end just on the centres of pixels
 
 
 @dataclass(frozen=True)
@@ -213,8 +215,9 @@ class Medium:
     width: typical full width. swell: width change with pressure. taper: how thin ends become
     (1 = blunt). nib: flatness of a broad nib. density: ink of a full stroke. fade: change of the
     density with pressure. grain: how much the paper's tooth shows; tooth: which noise. ragged:
-    roughness of the edge in px. soft: softness of the edge in px. rim: darker edges of wet ink.
-    overlap: strokes of one drawing darken each other. skip: how likely there are gaps.
+    roughness of the edge in px. soft: softness of the edge in px, 0 = without any grey. rim: darker
+    edges of wet ink. overlap: strokes of one drawing darken each other. skip: how likely there are
+    gaps.
     """
 
     width: tuple[float, float]
@@ -330,6 +333,14 @@ MEDIA: dict[str, Medium] = {
     ),
     "brushpen": Medium((2.0, 9.0), (0.3, 0.7), (0.1, 0.7), ragged=(0.05, 0.3)),
 }
+# Lines that no pen drew on paper: one bit without any grey, and crisp ones with smooth edges.
+_EVEN = Medium(
+    (0.9, 4.3), swell=(0.0, 0.0), density=(1.0, 1.0), fade=(0.0, 0.0), ragged=(0.0, 0.0), skip=0.0
+)
+DIGITAL: dict[str, Medium] = {
+    "one bit": replace(_EVEN, soft=(0.0, 0.0)),
+    "crisp": replace(_EVEN, width=(0.9, 6.0), soft=(0.5, 0.5)),
+}
 
 
 def draw(
@@ -352,12 +363,13 @@ def draw(
     if rng.random() < medium.skip:
         left, thinner = _skips(rng, samples)
         half = half * thinner
-    half = np.clip(half, 0.45, 10.5)
     layers = [np.ones(len(samples), bool)]
     if rng.random() < medium.overlap:
         second = rng.integers(0, 2, samples.stroke.max() + 1).astype(bool)[samples.stroke]
         layers = [second, ~second]
     soft = rng.uniform(*medium.soft)
+    # Without any grey, a line thinner than a pixel would vanish between the rows.
+    half = np.clip(half, 0.45 if soft else 0.505, WIDEST)
     density, fade = rng.uniform(*medium.density), rng.uniform(*medium.fade)
     ragged, rim = rng.uniform(*medium.ragged), rng.uniform(*medium.rim)
     grain = rng.uniform(*medium.grain)
@@ -371,7 +383,8 @@ def draw(
             continue
         edge, owner = nearest(samples.take(ids), half[ids], size, soft + 1.5 * ragged + 0.6)
         mine = np.clip(flow[ids][owner], 0.0, 1).astype(np.float32)
-        cover = np.clip(0.5 - (edge + ragged * edge_noise) / (2 * soft), 0, 1)
+        edge = edge + ragged * edge_noise
+        cover = np.clip(0.5 - edge / (2 * soft), 0, 1) if soft else edge <= 0
         if rim:
             mine = mine * (1 - rim + rim * np.exp(-np.abs(edge + 1.0)))
         if grain:

@@ -10,11 +10,11 @@ from .media import noise
 from .wear import wear
 
 
-def paper(rng: Rng, size: int, ink_level: float, printed: float = 0.25) -> Array:
+def paper(rng: Rng, size: int, ink_level: float, printed: float = 0.25, worn: float = 0.2) -> Array:
     """A (size, size) sheet of reflectance about 0.3..1, with print that is not to be traced.
 
     ink_level: how dark the drawing's ink is; ruled lines stay well below it. printed: how likely
-    the sheet is to be ruled.
+    the sheet is to be ruled; worn: how likely it is to be stained.
     """
     sheet = np.full((size, size), rng.uniform(0.72, 1.0), np.float32)
     kind = rng.random()
@@ -29,7 +29,7 @@ def paper(rng: Rng, size: int, ink_level: float, printed: float = 0.25) -> Array
         sheet += rng.uniform(0.01, 0.06) * noise(rng, "cloud", size)
         specks = noise(rng, str(rng.choice(["grain", "tooth", "rough"])), size)
         sheet -= rng.uniform(0.03, 0.2) * np.clip(specks - rng.uniform(2.3, 3.2), 0, 1)
-    if rng.random() < 0.2:
+    if rng.random() < worn:
         sheet *= wear(rng, size)
     if rng.random() < printed:
         sheet *= 1 - print_on(rng, size, ink_level)

@@ -17,6 +17,10 @@ from ..values import Array
 
 Infer = Callable[[Array], Array]
 """(h, w) float32 ink in [0, 1] -> (C, h, w) float32; h and w are multiples of the stride."""
+InferBoth = Callable[[Array], tuple[Array, Array]]
+"""The same, and beside the maps the features they are made of, (F, h / 2, w / 2) float32."""
+
+_Run = Callable[[Array, int], list[Array]]  # ink -> the first so many outputs
 
 
 @cache
@@ -26,6 +30,30 @@ def load(weights: Path, device: str) -> Infer:
     Raises:
         InvoluteError: the file is missing or broken, or there is no GPU though one is asked for.
     """
+    run = _loaded(weights, device)
+    return lambda ink: run(ink, 1)[0]
+
+
+@cache
+def load_both(weights: Path, device: str) -> InferBoth:
+    """The same network as `load` gives, with its features.
+
+    Raises:
+        InvoluteError: as `load`; or when called: the weights are older and have no features.
+    """
+    run = _loaded(weights, device)
+
+    def infer(ink: Array) -> tuple[Array, Array]:
+        answers = run(ink, 2)
+        if len(answers) < 2:
+            raise InvoluteError(f"The weights in {weights.name} have no features; use newer ones.")
+        return answers[0], answers[1]
+
+    return infer
+
+
+@cache
+def _loaded(weights: Path, device: str) -> _Run:
     if not weights.exists():
         raise InvoluteError(
             f"The weights of the centerline network ({weights.name}) are missing; reinstall "
@@ -39,7 +67,7 @@ def load(weights: Path, device: str) -> Infer:
     return _opencv(weights)
 
 
-def _opencv(weights: Path) -> Infer:
+def _opencv(weights: Path) -> _Run:
     try:
         # From memory: OpenCV can't open every path that Python can.
         data = np.frombuffer(shipped.read(weights), np.uint8)
@@ -47,11 +75,14 @@ def _opencv(weights: Path) -> Infer:
     except cv2.error as error:
         raise InvoluteError(f"Can't read the weights in {weights.name}.") from error
     running = Lock()
+    names = net.getUnconnectedOutLayersNames()
 
-    def infer(ink: Array) -> Array:
+    def infer(ink: Array, count: int) -> list[Array]:
         with running:  # a net holds the state of its last run
             net.setInput(ink[None, None])
-            return net.forward()[0]
+            # All outputs or the first: OpenCV takes no other selection.
+            answers = [net.forward()] if count == 1 else net.forward(names)
+            return [answer[0] for answer in answers]
 
     return infer
 
@@ -67,15 +98,16 @@ def _torch_gpu() -> str | None:
     return "mps" if torch.backends.mps.is_available() else None
 
 
-def _torch(weights: Path, device: str) -> Infer:
+def _torch(weights: Path, device: str) -> _Run:
     import torch
 
     from .onnx_torch import module
 
     net = module(shipped.read(weights)).to(device)
 
-    def infer(ink: Array) -> Array:
+    def infer(ink: Array, count: int) -> list[Array]:
         with torch.inference_mode():
-            return net(torch.from_numpy(ink[None, None]).to(device))[0].cpu().numpy()
+            answers = net.all_of(torch.from_numpy(ink[None, None]).to(device))
+            return [answer[0].cpu().numpy() for answer in answers[:count]]
 
     return infer

@@ -2,19 +2,29 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import replace
+from functools import cache
+from typing import TypeVar
+
 import numpy as np
 
 from .. import weights
 from ..settings import Settings
-from ..values import Array, LineMaps, Scan
+from ..values import Array, LineMaps
 from . import CenterlineProvider, Tick
-from .backends import Infer, load
+from .backends import Infer, InferBoth, load, load_both
 from .tiles import look
 
 WEIGHTS = weights.FOLDER / "centerline.onnx"
 STRIDE = 16  # px; the network wants both sides of its input to be multiples of this
-HALF_WIDTH_UNIT = 10.5  # px of half-width that an output of 1 stands for
+HALF_WIDTH_UNIT = 10.5  # px of half-width, or apart, that an output of 1 stands for
 _ALL_MAPS = 24_000_000  # px; larger pages go without the maps that only help
+# Heads of the network are the first maps of LineMaps, in that order.
+_NEEDED = (0, 3)  # centerline, half_width
+_LENGTHS = (3, 6)  # half_width, apart
+
+Answer = TypeVar("Answer")
 
 
 def available() -> bool:
@@ -22,41 +32,77 @@ def available() -> bool:
     return WEIGHTS.exists()
 
 
-def provider(settings: Settings) -> CenterlineProvider:
+def provider(settings: Settings, features: bool = False) -> CenterlineProvider:
     """A provider that runs the network on the device that the settings ask for.
 
+    features: whether its maps come with the features.
+
     Raises:
-        InvoluteError: the weights are missing or damaged, or there is no GPU though one is asked
-            for.
+        InvoluteError: the weights are missing, or there is no GPU though one is asked for.
     """
+    if features:
+        both = load_both(WEIGHTS, settings.device)
+        return lambda scan, tick: trace_both(scan.ink, both, tick)
     infer = load(WEIGHTS, settings.device)
-
-    def network(scan: Scan, tick: Tick) -> LineMaps:
-        return trace_maps(scan.ink, infer, tick)
-
-    return network
+    return lambda scan, tick: trace_maps(scan.ink, infer, tick)
 
 
 def trace_maps(ink: Array, infer: Infer, tick: Tick) -> LineMaps:
-    """The maps of a page, (H, W) float32 ink in [0, 1].
+    """The maps of a page, (H, W) float32 ink in [0, 1], without features.
 
-    On pages of more than 24 megapixels, junctions, endpoints and solid are None: memory.
+    On pages of more than 24 megapixels, all but centerline and half_width are None: memory. Older
+    weights have no doubled, apart and clean.
     """
-    line, half = np.zeros_like(ink), np.zeros_like(ink)
-    junctions = endpoints = solid = None
-    if ink.size <= _ALL_MAPS:
-        junctions, endpoints, solid = (np.zeros_like(ink) for _ in range(3))
-    look(
-        ink, lambda window: _padded(window, infer), [line, junctions, endpoints, half, solid], tick
-    )
-    half *= HALF_WIDTH_UNIT
-    return LineMaps(line, junctions, endpoints, half, solid)
+    maps = _room(ink, _paper(infer).shape[0])
+    look(ink, lambda window: _cut(infer(_padded(window)), window.shape), maps, tick)
+    return _named(maps)
 
 
-def _padded(window: Array, infer: Infer) -> Array:
-    """The answer to a window of any size: paper is added at its right and lower side."""
+def trace_both(ink: Array, infer: InferBoth, tick: Tick) -> LineMaps:
+    """The same with features; without those, too, on pages of more than 24 megapixels."""
+    seen, deep = _paper(infer)
+    maps = _room(ink, seen.shape[0])
+    half = -(-ink.shape[0] // 2), -(-ink.shape[1] // 2)
+    features = np.zeros((len(deep), *half), np.float32) if ink.size <= _ALL_MAPS else None
+
+    def answers(window: Array) -> list[Array]:
+        seen, deep = infer(_padded(window))
+        return [*_cut(seen, window.shape), *deep]
+
+    rest = [None] * len(deep) if features is None else list(features)
+    look(ink, answers, [*maps, *rest], tick)
+    return replace(_named(maps), features=features)
+
+
+@cache
+def _paper(infer: Callable[[Array], Answer]) -> Answer:
+    """The answer to a piece of blank paper: how many maps there are."""
+    return infer(np.zeros((STRIDE, STRIDE), np.float32))
+
+
+def _room(ink: Array, heads: int) -> list[Array | None]:
+    """A map for each head; large pages go without those that only help."""
+    wanted = (ink.size <= _ALL_MAPS or head in _NEEDED for head in range(heads))
+    return [np.zeros_like(ink) if want else None for want in wanted]
+
+
+def _named(maps: list[Array | None]) -> LineMaps:
+    """The maps in the order of the heads; lengths in px."""
+    for head in _LENGTHS:
+        length = maps[head] if head < len(maps) else None
+        if length is not None:
+            np.multiply(length, HALF_WIDTH_UNIT, out=length)
+    centerline, *others = maps
+    assert centerline is not None  # it is needed on every page
+    return LineMaps(centerline, *others)
+
+
+def _padded(window: Array) -> Array:
+    """A window of any size with paper at its right and lower side, up to a multiple of STRIDE."""
     height, width = window.shape
     padding = ((0, -height % STRIDE), (0, -width % STRIDE))
-    if any(p for _, p in padding):
-        window = np.pad(window, padding)
-    return infer(window)[:, :height, :width]
+    return np.pad(window, padding) if any(p for _, p in padding) else window
+
+
+def _cut(seen: Array, shape: tuple[int, ...]) -> Array:
+    return seen[:, : shape[0], : shape[1]]

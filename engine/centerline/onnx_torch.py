@@ -112,23 +112,29 @@ def _node(message: memoryview) -> _Node:
 
 
 class OnnxModule(nn.Module):  # type: ignore[misc]  # torch is no part of this environment
-    """A network read from ONNX: one input, one output."""
+    """A network read from ONNX: one input, one output or more, of which a call gives the first."""
 
-    def __init__(self, nodes: list[_Node], weights: dict[str, Tensor], source: str) -> None:
+    def __init__(
+        self, nodes: list[_Node], weights: dict[str, Tensor], source: str, results: list[str]
+    ) -> None:
         super().__init__()
-        self._nodes, self._source = nodes, source
+        self._nodes, self._source, self._results = nodes, source, results
         self._slot = {name: f"w{k}" for k, name in enumerate(weights)}
         for name, tensor in weights.items():
             self.register_buffer(self._slot[name], tensor)
 
     def forward(self, x: Tensor) -> Tensor:
+        return self.all_of(x)[0]
+
+    def all_of(self, x: Tensor) -> list[Tensor]:
+        """Every output of the network."""
         values = {self._source: x}
         for node in self._nodes:
             given = [
                 getattr(self, self._slot[n]) if n in self._slot else values[n] for n in node.inputs
             ]
-            values[node.outputs[0]] = x = _run(node, given)
-        return x
+            values[node.outputs[0]] = _run(node, given)
+        return [values[name] for name in self._results]
 
 
 def _run(node: _Node, given: list[Tensor]) -> Tensor:
@@ -137,6 +143,8 @@ def _run(node: _Node, given: list[Tensor]) -> Tensor:
         return given[0].relu()
     if node.kind == "Sigmoid":
         return given[0].sigmoid()
+    if node.kind == "Add":
+        return given[0] + given[1]
     if node.kind == "Concat":
         return torch.cat(given, a["axis"][0])
     if node.kind in ("Identity", "Cast"):  # all numbers are 32-bit floats here
@@ -154,8 +162,8 @@ def module(data: bytes) -> OnnxModule:
         InvoluteError: it uses an operation that the centerline network has no use for.
     """
     graph = next(value for number, value in _fields(memoryview(data)) if number == 7)
-    nodes, weights, source = [], {}, ""
-    for number, value in _fields(graph):  # GraphProto: node 1, initializer 5, input 11
+    nodes, weights, source, results = [], {}, "", []
+    for number, value in _fields(graph):  # GraphProto: node 1, initializer 5, input 11, output 12
         if number == 1:
             nodes.append(_node(value))
         elif number == 5:
@@ -163,4 +171,6 @@ def module(data: bytes) -> OnnxModule:
             weights[name] = tensor
         elif number == 11:
             source = next(bytes(v).decode() for n, v in _fields(value) if n == 1)
-    return OnnxModule(nodes, weights, source).eval()
+        elif number == 12:
+            results.append(next(bytes(v).decode() for n, v in _fields(value) if n == 1))
+    return OnnxModule(nodes, weights, source, results).eval()

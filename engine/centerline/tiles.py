@@ -10,7 +10,7 @@ gets the same answer wherever it lies on its sheet.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
 import cv2
@@ -204,16 +204,18 @@ def _best_cut(active: Array) -> tuple[float, int]:
 
 def look(
     ink: Array,
-    infer: Callable[[Array], Array],
-    maps: list[Array | None],
+    infer: Callable[[Array], Iterable[Array]],
+    maps: Sequence[Array | None],
     tick: Callable[[float], None],
 ) -> None:
     """Run a network over all inked blocks of a page and write its answers into the maps.
 
     Args:
         ink: (H, W) float32.
-        infer: (h, w) float32 window -> (C, h, w) float32; any size.
-        maps: C arrays (H, W) float32, zero, and left so on white paper; None = not wanted.
+        infer: (h, w) float32 window of any size -> its maps, (h, w) float32; those at half the
+            resolution are (h / 2, w / 2), rounded up.
+        maps: as many arrays (H, W) or (H / 2, W / 2), float32, zero, and left so on white paper;
+            None = not wanted.
         tick: called with the fraction that is done; what it raises passes through.
     """
     shift = shift_of(ink)
@@ -230,14 +232,33 @@ def look(
         top, left = max(tile.top, shift[0]), max(tile.left, shift[1])
         bottom, right = min(tile.bottom, height), min(tile.right, width)
         inked = active[np.arange(top, bottom)[:, None] // BLOCK, np.arange(left, right) // BLOCK]
+        corner = top - rows.start, left - columns.start
+        place = top - shift[0], left - shift[1]
         for answer, target in zip(answers, maps, strict=True):
             if target is not None:
-                seen = answer[
-                    top - rows.start : bottom - rows.start,
-                    left - columns.start : right - columns.start,
-                ]
-                target[top - shift[0] : bottom - shift[0], left - shift[1] : right - shift[1]] = (
-                    seen * inked
-                )
+                _put(target, answer, inked, place, corner, 1 if target.shape == ink.shape else 2)
         done += tile.area
     tick(1.0)
+
+
+def _put(
+    target: Array,
+    answer: Array,
+    inked: Array,
+    place: tuple[int, int],
+    corner: tuple[int, int],
+    step: int,
+) -> None:
+    """Write a tile's part of an answer into a map of the page, white paper left at zero.
+
+    Args:
+        inked: (h, w) bool, which pixels of the tile lie in blocks with ink.
+        place: where the tile begins on the page, px. corner: where it begins in the window.
+        step: px of the page per cell of the map; a map of half the resolution lies up to half a
+            cell beside the page where that does not begin at an even pixel of the grid.
+    """
+    seen = inked[::step, ::step]
+    (y, x), (row, column) = (v // step for v in place), (v // step for v in corner)
+    found = answer[row : row + seen.shape[0], column : column + seen.shape[1]]
+    part = target[y : y + found.shape[0], x : x + found.shape[1]]
+    part[:] = (found * seen[: found.shape[0], : found.shape[1]])[: part.shape[0], : part.shape[1]]

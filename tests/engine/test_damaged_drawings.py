@@ -258,8 +258,9 @@ def test_a_damaged_drawing_is_refused_or_sound(form, drawing, document, tmp_path
     random = np.random.default_rng(seed)
     text = drawing_json.dumps(drawing) if form == "json" else svg.dumps(drawing)
     read = drawing_json.read if form == "json" else svg.read
-    places = [f"{a}.{b}" for a in ("graph", "routing", "strokes", "fills") for b in document[a]]
-    places = [p for p in places if "dtype" in (document[p.split(".")[0]][p.split(".")[1]] or ())]
+    rooms = ("graph", "routing", "strokes", "fills")
+    tables = [(a, b) for a in rooms for b, box in document[a].items() if isinstance(box, dict)]
+    places = [f"{a}.{b}" for a, b in tables]
     for count in range(MUTATIONS):
         if form == "json" and count % 2:
             place = str(random.choice(places))

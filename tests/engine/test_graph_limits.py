@@ -22,6 +22,15 @@ def test_every_limit_says_why(row: limits.Row) -> None:
     assert row.source
 
 
+def test_the_document_has_every_measured_limit_with_its_value() -> None:
+    said = (ROOT / "docs" / "graph-limits.md").read_text("utf-8")
+    said = " ".join(said.split())
+    measured = [row for row in limits.table() if row.source == limits.MEASURED]
+    assert len(measured) > 50
+    missing = [r.name for r in measured if f"| {r.name} | {r.value:g} {r.unit} |" not in said]
+    assert not missing, "run `python -m benchmarks.graph_limits`"
+
+
 def test_other_constants_say_what_they_are() -> None:
     """A number on its own line in a module has a comment beside it."""
     silent = []

@@ -11,12 +11,19 @@ import pytest
 torch = pytest.importorskip("torch")
 
 from involute.engine.centerline import backends, onnx_torch  # noqa: E402
-from involute.engine.centerline.backends import load  # noqa: E402
+from involute.engine.centerline.backends import load, load_both  # noqa: E402
+from involute.engine.centerline.learned import trace_both, trace_maps  # noqa: E402
+from involute.engine.errors import InvoluteError  # noqa: E402
 from involute.synthesis import line_art, media, wear  # noqa: E402
 from involute.synthesis.line_art import Library  # noqa: E402
 from involute.training.centerline import losses, page_figures, training_page  # noqa: E402
 from involute.training.centerline.average import main as average  # noqa: E402
-from involute.training.centerline.export_centerline import export, folded, worst_difference  # noqa: E402
+from involute.training.centerline.export_centerline import (  # noqa: E402
+    export,
+    folded,
+    keep,
+    worst_difference,
+)
 from involute.training.centerline.page_batches import Pages, split  # noqa: E402
 from involute.training.centerline.restore_unet import restored  # noqa: E402
 from involute.training.centerline.targets import targets  # noqa: E402
@@ -217,7 +224,57 @@ def test_opencv_and_both_torch_forms_agree(tmp_path):
     ink = np.random.default_rng(0).random((5 * STRIDE, 3 * STRIDE), np.float32)
     with torch.inference_mode():
         given = torch.from_numpy(ink[None, None])
-        read = onnx_torch.module(out.read_bytes())(given)
-        assert (read - Exported(folded(net))(given)).abs().max() < 1e-5
+        read, features = onnx_torch.module(out.read_bytes()).all_of(given)
+        wanted = Exported(folded(net))(given)
+        assert (read - wanted[0]).abs().max() < 1e-5
+        assert (features - wanted[1]).abs().max() < 1e-4
+    assert features.shape[1:] == (4, 2.5 * STRIDE, 1.5 * STRIDE)
     np.testing.assert_allclose(load(out, "cpu")(ink), read[0].numpy(), atol=1e-3)
-    np.testing.assert_allclose(backends._torch(out, "cpu")(ink), read[0].numpy(), atol=1e-3)
+    np.testing.assert_allclose(backends._torch(out, "cpu")(ink, 1)[0], read[0].numpy(), atol=1e-3)
+    np.testing.assert_allclose(load_both(out, "cpu")(ink)[1], features[0].numpy(), atol=1e-3)
+
+
+def test_all_maps_and_the_features_reach_the_engine(tmp_path):
+    torch.manual_seed(3)
+    export(CenterlineNet((4, 8, 12)).eval(), tmp_path / "net.onnx")
+    ink = np.zeros((151, 213), np.float32)
+    ink[70:73, 20:190] = ink[10:140, 100:104] = 1
+    both = load_both(tmp_path / "net.onnx", "cpu")
+    maps = trace_both(ink, both, lambda fraction: None)
+    assert maps.features.shape == (4, 76, 107)
+    for name in ("centerline", "half_width", "solid", "doubled", "apart", "clean"):
+        assert getattr(maps, name).shape == ink.shape
+    plain = trace_maps(ink, load(tmp_path / "net.onnx", "cpu"), lambda fraction: None)
+    assert plain.features is None
+    np.testing.assert_array_equal(plain.apart, maps.apart)
+    seen, deep = both(np.pad(ink, ((0, 9), (0, 11))))
+    np.testing.assert_allclose(maps.clean[60:80, 90:110], seen[7, 60:80, 90:110], atol=1e-4)
+    inside = np.s_[:, 30:40, 45:55]
+    np.testing.assert_allclose(maps.features[inside], deep[inside], atol=1e-3)
+
+
+def test_older_weights_have_five_maps_and_say_that_they_have_no_features():
+    from involute.engine.centerline.learned import WEIGHTS
+
+    ink = np.zeros((64, 64), np.float32)
+    ink[30:33, 10:50] = 1
+    both = load_both(WEIGHTS, "cpu")
+    maps = trace_maps(ink, load(WEIGHTS, "cpu"), lambda fraction: None)
+    if maps.doubled is None:
+        with pytest.raises(InvoluteError, match="no features"):
+            trace_both(ink, both, lambda fraction: None)
+
+
+def test_weights_to_go_on_from_are_kept_with_their_norms(tmp_path):
+    torch.manual_seed(1)
+    net = CenterlineNet((4, 8)).eval()
+    keep(net, tmp_path / "start.pt")
+    ink = torch.rand(1, 1, 32, 48)
+    with torch.inference_mode():
+        torch.testing.assert_close(
+            restored(tmp_path / "start.pt")(ink), net(ink), atol=2e-2, rtol=0
+        )
+    start = Path(training_page.__file__).with_name("start.pt")
+    state = torch.load(start, "cpu")["mean"]
+    assert any("running_mean" in name for name in state)
+    assert restored(start).head.weight.shape[1] == len(CHANNELS) - 1

@@ -1,5 +1,5 @@
 """The centerline network: pages drawn from true strokes, training, validation, export.
 
-geometry -> media -> paper -> sample     one synthetic page with its targets
-data -> train -> validate -> export      from pages to engine/weights/centerline.onnx
+synthesis -> targets -> training_page                          one page with its targets
+page_batches -> train_centerline -> validate -> export_centerline   from pages to the weights
 """

@@ -8,8 +8,8 @@ import torch
 from torch import Tensor
 from torch.nn import functional
 
+from .lines_together import UNKNOWN
 from .targets import MAX_HALF_WIDTH
-from .unet import HEADS
 
 
 def paper_loss(raw: Tensor, truth: Tensor) -> Tensor:
@@ -43,21 +43,38 @@ CENTERLINE_LOSSES: dict[str, Callable[[Tensor, Tensor], Tensor]] = {
 }
 
 
+def relative_error(raw: Tensor, length: Tensor, where: Tensor) -> Tensor:
+    """Mean error of a length relative to it and 1 px, weighted by `where`."""
+    error = (raw.sigmoid() - length).abs() / (length + 1 / MAX_HALF_WIDTH)
+    return (error * where).sum() / (where.sum() + 1)
+
+
+def doubled_loss(raw: Tensor, two: Tensor, ridge: Tensor) -> Tensor:
+    """Cross entropy on ridges and between two lines, where the truth is known; a little off."""
+    known = (two - UNKNOWN).abs() > 0.1
+    weight = known * torch.maximum(ridge, two).clamp(min=0.02)
+    loss = functional.binary_cross_entropy_with_logits(raw, two.round(), weight, reduction="sum")
+    return loss / (weight.sum() + 1)
+
+
 def total_loss(raw: Tensor, truth: Tensor, centerline: str = "bce_dice") -> dict[str, Tensor]:
     """Loss of each head, weighted so that the centerline leads, and "total".
 
-    raw and truth: (N, 5, H, W), channels as in model.HEADS. The truth's half-width is a share of
-    MAX_HALF_WIDTH; it counts on the ridge alone.
+    raw and truth: (N, 8, H, W), channels as in model.HEADS. Half-width and apart are shares of
+    MAX_HALF_WIDTH; they count on the ridge alone, apart on doubled ones.
     """
-    line, junctions, endpoints, half, solid = (truth[:, k] for k in range(len(HEADS)))
+    line, junctions, endpoints, half, solid, two, apart, clean = truth.unbind(1)
+    seen = raw.contiguous().unbind(1)  # views of their own: the gradient of a slice is a whole map
     ridge = line * (line > 0.2)
-    error = (raw[:, 3].sigmoid() - half).abs() / (half + 1 / MAX_HALF_WIDTH)
     parts = {
-        "centerline": CENTERLINE_LOSSES[centerline](raw[:, 0], line),
-        "junctions": 0.5 * weighted_bce(raw[:, 1], junctions, 10.0),
-        "endpoints": 0.3 * weighted_bce(raw[:, 2], endpoints, 10.0),
-        "half_width": 0.3 * (error * ridge).sum() / (ridge.sum() + 1),
-        "solid": functional.binary_cross_entropy_with_logits(raw[:, 4], solid),
+        "centerline": CENTERLINE_LOSSES[centerline](seen[0], line),
+        "junctions": 0.5 * weighted_bce(seen[1], junctions, 10.0),
+        "endpoints": 0.3 * weighted_bce(seen[2], endpoints, 10.0),
+        "half_width": 0.3 * relative_error(seen[3], half, ridge),
+        "solid": functional.binary_cross_entropy_with_logits(seen[4], solid),
+        "doubled": 0.3 * doubled_loss(seen[5], two, ridge),
+        "apart": 0.3 * relative_error(seen[6], apart, ridge * (two > 0.7)),
+        "clean": 0.6 * CENTERLINE_LOSSES[centerline](seen[7], clean),
     }
     parts["total"] = torch.stack(list(parts.values())).sum()
     return parts

@@ -18,13 +18,14 @@ from ...synthesis.line_art import Array, Library
 from .training_page import page
 
 PAGE = 384
+AT_EDGE = 0.15  # share of the crops that show the edge of a page
 
 
 class Pages(IterableDataset):
-    """An endless stream of (batch, 6, crop, crop) uint8 tensors, channels as sample.CHANNELS."""
+    """An endless stream of (batch, C, crop, crop) uint8 tensors, channels as sample.CHANNELS."""
 
     def __init__(
-        self, data: Path, batch: int, crop: int, fresh: float, seed: int, keep: int = 1000
+        self, data: Path, batch: int, crop: int, fresh: float, seed: int, keep: int = 700
     ) -> None:
         self.data, self.batch, self.crop = data, batch, crop
         self.fresh, self.seed, self.keep = fresh, seed, keep
@@ -49,10 +50,13 @@ class Pages(IterableDataset):
             yield torch.from_numpy(np.stack(crops))
 
     def _crop(self, rng: np.random.Generator, whole: Array) -> Array:
-        """A turned or flipped crop; of two tries the one that shows more line."""
-        tries = []
+        """A turned or flipped crop, now and then at the page's edge; of two tries the one that
+        shows more line."""
+        tries, rest = [], PAGE - self.crop
         for _ in range(2):
-            y, x = rng.integers(0, PAGE - self.crop + 1, 2)
+            y, x = rng.integers(0, rest + 1, 2)
+            if rng.random() < AT_EDGE:
+                y, x = rng.permutation([rng.choice([0, rest]), x])
             tries.append(whole[:, y : y + self.crop, x : x + self.crop])
         best = max(tries, key=lambda crop: int(crop[1].sum())) if rng.random() < 0.7 else tries[0]
         best = np.rot90(best, rng.integers(4), (1, 2))
@@ -67,7 +71,7 @@ def loader(pages: Pages, workers: int) -> DataLoader:
 
 
 def validation_pages(data: Path, count: int, size: int = PAGE, seed: int = 77) -> Array:
-    """(count, 6, size, size) uint8 pages from the held-out drawings, always the same ones."""
+    """(count, C, size, size) uint8 pages from the held-out drawings, always the same ones."""
     library = Library.load(data)
     return np.stack(
         [page(np.random.default_rng((seed, k)), library, size, held_out=True) for k in range(count)]
@@ -75,7 +79,7 @@ def validation_pages(data: Path, count: int, size: int = PAGE, seed: int = 77) -
 
 
 def split(batch: Tensor) -> tuple[Tensor, Tensor]:
-    """uint8 channels -> ink (N, 1, H, W) and truth (N, 5, H, W), float32 in [0, 1]."""
+    """uint8 channels -> ink (N, 1, H, W) and truth (N, C - 1, H, W), float32 in [0, 1]."""
     maps = batch.float().div_(255)
     return maps[:, :1].contiguous(memory_format=torch.channels_last), maps[:, 1:]
 

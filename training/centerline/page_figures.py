@@ -48,8 +48,8 @@ def _matched(found: Array, truth: Array, within: float) -> tuple[int, int]:
 
 
 def page_figures(seen: Array, truth: Array, level: float = 0.4) -> dict[str, float]:
-    """Counts and sums of one page; seen, truth: (5, H, W) in [0, 1], channels as model.HEADS;
-    level: above which a crest counts as a line."""
+    """Counts and sums of one page; seen, truth: (C, H, W) in [0, 1], channels as model.HEADS, the
+    first four at least; level: above which a crest counts as a line."""
     mine, true = ridge_points(seen[0], level), ridge_points(truth[0], 0.6)
     out: dict[str, float] = {"mine": len(mine), "true": len(true)}
     out["mine_ok"], out["true_ok"] = _matched(mine, true, 1.5)
@@ -65,6 +65,22 @@ def page_figures(seen: Array, truth: Array, level: float = 0.4) -> dict[str, flo
     ridge = truth[0] > 0.6
     out["half_error"] = float(np.abs(seen[3] - truth[3])[ridge].sum() * MAX_HALF_WIDTH)
     out["half_n"] = int(ridge.sum())
+    return out | _further_figures(seen, truth, ridge, level)
+
+
+def _further_figures(seen: Array, truth: Array, ridge: Array, level: float) -> dict[str, float]:
+    """Counts of the maps that only newer networks have: doubled, apart, clean."""
+    if len(seen) < 8:
+        return {}
+    mine, true = ridge_points(seen[7], level), ridge_points(truth[7], 0.6)
+    out: dict[str, float] = {"clean_mine": len(mine), "clean_true": len(true)}
+    out["clean_mine_ok"], out["clean_true_ok"] = _matched(mine, true, 1.5)
+    known = ridge & (np.abs(truth[5] - 0.5) > 0.2)
+    two, found = truth[5] > 0.5, seen[5] > 0.5
+    out["doubled_mine"], out["doubled_true"] = int((known & found).sum()), int((known & two).sum())
+    out["doubled_ok"] = int((known & found & two).sum())
+    error = np.abs(seen[6] - truth[6])[known & two]
+    out["apart_error"] = float(error.sum() * MAX_HALF_WIDTH)
     return out
 
 
@@ -75,7 +91,7 @@ def pooled(figures: list[dict[str, float]]) -> dict[str, float]:
     def share(part: str, whole: str) -> float:
         return round(sums[part] / max(1, sums[whole]), 4)
 
-    return {
+    figures = {
         "precision": share("mine_ok", "mine"),
         "recall": share("true_ok", "true"),
         "chamfer_px": share("distance", "distance_n"),
@@ -85,3 +101,12 @@ def pooled(figures: list[dict[str, float]]) -> dict[str, float]:
         "endpoint_recall": share("endpoint_true_ok", "endpoint_true"),
         "half_width_error_px": share("half_error", "half_n"),
     }
+    if "clean_mine" in sums:
+        figures |= {
+            "clean_precision": share("clean_mine_ok", "clean_mine"),
+            "clean_recall": share("clean_true_ok", "clean_true"),
+            "doubled_precision": share("doubled_ok", "doubled_mine"),
+            "doubled_recall": share("doubled_ok", "doubled_true"),
+            "apart_error_px": share("apart_error", "doubled_true"),
+        }
+    return figures

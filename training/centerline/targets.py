@@ -11,37 +11,52 @@ from scipy.spatial import cKDTree
 
 from ...synthesis.line_art import Array
 from ...synthesis.media import STEP, Samples, nearest
+from .lines_together import doubled
 
 RIDGE_SIGMA = 0.8  # px; a ridge about 2 px wide keeps a valley between lines 3 px apart
 SPOT_SIGMA = 1.5  # px, of a junction or an endpoint
-MAX_HALF_WIDTH = HALF_WIDTH_UNIT
+MAX_HALF_WIDTH = HALF_WIDTH_UNIT  # also the unit of `apart`
 _TOUCH = 1.5  # px between an end and another line that still is a touch
 _MIN_ANGLE = np.sin(np.deg2rad(8))  # shallower crossings have no definite place
 
 
 @dataclass(frozen=True)
 class Targets:
-    """(size, size) float32 maps; see `engine.values.LineMaps`. half_width is 0 off the lines."""
+    """(size, size) float32 maps; see `engine.values.LineMaps`. half_width and apart are px, 0 off
+    the lines; doubled is `lines_together.UNKNOWN` where nobody can tell."""
 
     centerline: Array
     junctions: Array
     endpoints: Array
     half_width: Array
+    doubled: Array
+    apart: Array
+
+    @staticmethod
+    def blank(size: int) -> Targets:
+        """The maps of a page without lines."""
+        return Targets(*np.zeros((6, size, size), np.float32))
 
 
 def targets(samples: Samples, half_width: Array, size: int) -> Targets:
     """The maps of the given strokes; half_width: (N,) px of each sample."""
     distance, owner = nearest(samples, np.zeros(len(samples)), size, 4.0)
-    ridge = np.exp(-0.5 * (distance / RIDGE_SIGMA) ** 2).astype(np.float32)
-    widths = np.where(owner >= 0, half_width[owner], 0).astype(np.float32)
+    state, apart = doubled(samples, half_width)
     crossings = find_crossings(samples)
     touches, ends = find_ends(samples)
-    return Targets(
-        ridge,
-        spots(np.concatenate([crossings, touches]), size),
-        spots(ends, size),
-        widths,
-    )
+    near = (np.where(owner >= 0, of[owner], 0) for of in (half_width, state, apart))
+    widths, two, gap = (of.astype(np.float32) for of in near)
+    marks = spots(np.concatenate([crossings, touches]), size)
+    return Targets(_ridge(distance), marks, spots(ends, size), widths, two, gap)
+
+
+def ridge(samples: Samples, size: int) -> Array:
+    """The (size, size) ridge map of some strokes."""
+    return _ridge(nearest(samples, np.zeros(len(samples)), size, 4.0)[0])
+
+
+def _ridge(distance: Array) -> Array:
+    return np.exp(-0.5 * (distance / RIDGE_SIGMA) ** 2).astype(np.float32)
 
 
 def spots(points: Array, size: int) -> Array:

@@ -1,7 +1,7 @@
 """The network: a small U-Net that works at half resolution inside.
 
 A strided 4x4 stem halves the page, a transposed 4x4 convolution brings the answer back to full
-resolution; only operations that OpenCV's DNN module runs fast. At 1024x1024 it takes 70 GFLOP.
+resolution; only operations that OpenCV's DNN module runs fast. At 1024x1024 it takes 35 GFLOP.
 """
 
 from __future__ import annotations
@@ -11,15 +11,19 @@ from itertools import pairwise
 import torch
 from torch import Tensor, nn
 
-WIDTHS = (32, 64, 128, 192)
+WIDTHS = (24, 48, 96, 128)
 STRIDE = 2 ** len(WIDTHS)  # both sides of an input are multiples of this
 HEADS = ("centerline", "junctions", "endpoints", "half_width", "solid")
+HEADS += ("doubled", "apart", "clean")
 
 
 class CenterlineNet(nn.Module):
-    """(N, 1, H, W) ink in [0, 1] -> (N, 5, H, W) raw values, channels as in HEADS.
+    """(N, 1, H, W) ink in [0, 1] -> (N, 8, H, W) raw values, channels as in HEADS.
 
-    Without norms the convolutions have biases instead: what a network with norms is exported as.
+    On the way down, levels have two 3x3 convolutions, the finest has one; on the way up all have
+    one. The finest level adds what comes from below, the others append it: half the work at
+    the resolution that costs most. Without norms the convolutions have biases instead: what a
+    network with norms is exported as.
     """
 
     def __init__(self, widths: tuple[int, ...] = WIDTHS, norms: bool = True) -> None:
@@ -34,38 +38,49 @@ class CenterlineNet(nn.Module):
                 nn.ReLU(inplace=True),
             )
 
-        def level(inputs: int, outputs: int) -> nn.Module:
-            return nn.Sequential(conv(inputs, outputs), conv(outputs, outputs))
-
         pairs = list(pairwise(widths))
+        counts = [1] + [2] * len(pairs)
         self.stem = conv(1, widths[0], 4, 2, 1)
-        self.encode = nn.ModuleList(level(w, w) for w in widths)
+        self.encode = nn.ModuleList(
+            nn.Sequential(*(conv(w, w) for _ in range(count)))
+            for w, count in zip(widths, counts, strict=True)
+        )
         self.down = nn.ModuleList(conv(a, b, 2, 2, 0) for a, b in pairs)
         self.up = nn.ModuleList(nn.ConvTranspose2d(b, a, 2, 2) for a, b in pairs)
-        self.decode = nn.ModuleList(level(2 * w, w) for w in widths[:-1])
+        self.decode = nn.ModuleList(
+            conv(w if finest else 2 * w, w)
+            for w, finest in zip(widths, [True] + [False] * (len(pairs) - 1), strict=False)
+        )
         self.head = nn.ConvTranspose2d(widths[0], len(HEADS), 4, 2, 1)
         # Most of a page is paper: start from "no line".
         nn.init.constant_(self.head.bias, -3.0)
 
-    def forward(self, ink: Tensor) -> Tensor:
+    def features(self, ink: Tensor) -> Tensor:
+        """(N, C, H / 2, W / 2): what all maps are made of; C = the first of the widths."""
         x = self.stem(ink)
         skips = []
-        for encode, down in zip(self.encode, [*self.down, None], strict=True):
+        for encode, down in zip(self.encode, self.down, strict=False):
             x = encode(x)
-            if down is not None:
-                skips.append(x)
-                x = down(x)
-        for skip, up, decode in reversed(list(zip(skips, self.up, self.decode, strict=True))):
-            x = decode(torch.cat([skip, up(x)], 1))
-        return self.head(x)
+            skips.append(x)
+            x = down(x)
+        x = self.encode[-1](x)
+        for level in reversed(range(len(skips))):
+            below = self.up[level](x)
+            merged = torch.cat([skips[level], below], 1) if level else skips[0] + below
+            x = self.decode[level](merged)
+        return x
+
+    def forward(self, ink: Tensor) -> Tensor:
+        return self.head(self.features(ink))
 
 
 class Exported(nn.Module):
-    """The network with its final activation: all maps in [0, 1]."""
+    """The network with its final activation: all maps in [0, 1], and the features."""
 
     def __init__(self, net: CenterlineNet) -> None:
         super().__init__()
         self.net = net
 
-    def forward(self, ink: Tensor) -> Tensor:
-        return self.net(ink).sigmoid()
+    def forward(self, ink: Tensor) -> tuple[Tensor, Tensor]:
+        features = self.net.features(ink)
+        return self.net.head(features).sigmoid(), features

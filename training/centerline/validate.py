@@ -1,4 +1,4 @@
-"""Figures by medium on pages of held-out drawings, beside the classical provider's.
+"""Figures by medium and kind of page on held-out drawings, beside the classical provider's.
 
 python -m involute.training.centerline.validate --data DIR [--weights FILE] [--pages 12]
 """
@@ -21,7 +21,7 @@ from involute.engine.values import LineMaps, Scan
 from ...synthesis.line_art import Array, Library
 from ...synthesis.media import MEDIA
 from .page_figures import page_figures, pooled
-from .training_page import page
+from .training_page import KINDS, page
 
 SIZE = 512
 
@@ -31,7 +31,7 @@ def main(arguments: list[str] | None = None) -> None:
     parser = argparse.ArgumentParser(prog="validate", description=__doc__.splitlines()[0])
     parser.add_argument("--data", type=Path, required=True)
     parser.add_argument("--weights", type=Path, default=WEIGHTS)
-    parser.add_argument("--pages", type=int, default=12, help="for each medium")
+    parser.add_argument("--pages", type=int, default=12, help="for each medium and kind")
     parser.add_argument("--seed", type=int, default=77)
     parser.add_argument("--device", default="cpu", choices=["cpu", "gpu"])
     parser.add_argument("--json", type=Path, help="write the figures here as well")
@@ -45,15 +45,17 @@ def main(arguments: list[str] | None = None) -> None:
     library = Library.load(options.data)
     table = {way: {} for way in ways}
     everything: dict[str, list] = {way: [] for way in ways}
-    for number, medium in enumerate(MEDIA):
+    names = [(medium, medium, None) for medium in MEDIA]
+    names += [(kind, None, kind) for kind in KINDS if kind != "paper"]
+    for number, (name, medium, kind) in enumerate(names):
+        seeds = ((options.seed, number, k) for k in range(options.pages))
         pages = [
-            page(np.random.default_rng((options.seed, number, k)), library, SIZE, True, medium)
-            for k in range(options.pages)
+            page(np.random.default_rng(seed), library, SIZE, True, medium, kind) for seed in seeds
         ]
         for way, provider in ways.items():
             figures = [judge(p, provider) for p in pages]
             everything[way] += figures
-            table[way][medium] = pooled(figures)
+            table[way][name] = pooled(figures)
     for way in ways:
         table[way]["all"] = pooled(everything[way])
     print_table(table)
@@ -62,16 +64,17 @@ def main(arguments: list[str] | None = None) -> None:
 
 
 def judge(drawn: Array, provider: Callable[[Scan], LineMaps]) -> dict[str, float]:
-    """Counts of `metrics.page_figures` for one page, (6, H, W) uint8."""
+    """Counts of `metrics.page_figures` for one page, channels as sample.CHANNELS, uint8."""
     truth = drawn[1:].astype(np.float32) / 255
     ink = drawn[0].astype(np.float32) / 255
     seen = provider(Scan(ink, None, 1.0, ink.shape[::-1], measure_pen(ink) or 3.0))
     nothing = np.zeros_like(ink)
     half = _distance_to_paper(ink) if seen.half_width is None else seen.half_width
     others = [nothing if m is None else m for m in (seen.junctions, seen.endpoints)]
-    return page_figures(
-        np.stack([seen.centerline, *others, half / HALF_WIDTH_UNIT, nothing]), truth
-    )
+    maps = [seen.centerline, *others, half / HALF_WIDTH_UNIT, nothing]
+    if seen.clean is not None:
+        maps += [seen.doubled, seen.apart / HALF_WIDTH_UNIT, seen.clean]
+    return page_figures(np.stack(maps), truth)
 
 
 def _distance_to_paper(ink: Array) -> Array:
@@ -81,7 +84,7 @@ def _distance_to_paper(ink: Array) -> Array:
 
 
 def print_table(table: dict[str, dict[str, dict[str, float]]]) -> None:
-    """Markdown: one row for each medium, the classical provider's figure after the slash."""
+    """Markdown: one row for each medium and kind; the classical figure after the slash."""
     columns = list(table["network"]["all"])
     both = ("precision", "recall", "chamfer_px", "half_width_error_px")
     print("| medium | " + " | ".join(columns) + " |\n" + "|---" * (len(columns) + 1) + "|")
