@@ -25,8 +25,8 @@ print(fingerprint(sys.argv[1], 0, Settings()))
 TRACE = """
 import sys
 from program.command.cli import main
-sys.exit(main(["trace", sys.argv[1], "-o", sys.argv[2], "--format", "json", "--resume", "--corners", "0",
-               "--report", sys.argv[3]]))
+sys.exit(main(["trace", sys.argv[1], "-o", sys.argv[2], "--format", "json", "--resume",
+               "--corners", "0", "--report", sys.argv[3]]))
 """
 FRAMES = """
 import sys
