@@ -349,6 +349,26 @@ def _branches(
     return position, lines, sources, ends, partner
 
 
+def _chained(link: Array) -> list[list[int]]:
+    """Half-branches in chains: each is followed by the one that its far end is linked to.
+
+    Args:
+        link: (2B,) the half-branch that goes on at this one's vertex, or -1.
+    """
+    used = np.zeros(len(link) // 2, bool)
+    chains: list[list[int]] = []
+    for seed in [*np.flatnonzero(link < 0), *np.flatnonzero(link >= 0)]:
+        if used[seed >> 1]:
+            continue
+        chain, half = [], int(seed)
+        while half >= 0 and not used[half >> 1]:
+            used[half >> 1] = True
+            chain.append(half)
+            half = int(link[half ^ 1])
+        chains.append(chain)
+    return chains
+
+
 def dissolve(
     position: Array, lines: list[Array], sources: list[Array], ends: Array, partner: Array
 ) -> tuple[PlanarGraph, Array, Array]:
@@ -368,18 +388,7 @@ def dissolve(
     link = np.full(len(at), -1)
     link[two[::2]], link[two[1::2]] = two[1::2], two[::2]
 
-    used = np.zeros(len(lines), bool)
-    chains: list[list[int]] = []
-    for seed in [*np.flatnonzero(link < 0), *np.flatnonzero(link >= 0)]:
-        if used[seed >> 1]:
-            continue
-        chain, half = [], int(seed)
-        while half >= 0 and not used[half >> 1]:
-            used[half >> 1] = True
-            chain.append(half)
-            half = int(link[half ^ 1])
-        chains.append(chain)
-
+    chains = _chained(link)
     new_of = np.full(len(at), -1)
     points, source, tips = [], [], []
     for number, chain in enumerate(chains):

@@ -13,7 +13,7 @@ import numpy as np
 from ..arrays.ragged import offsets_of
 from ..arrays.sampling import sample
 from ..settings import Settings
-from ..values import PlanarGraph
+from ..values import Array, PlanarGraph
 from .evidence import Evidence
 from .limits import LIMITS
 
@@ -48,20 +48,8 @@ def place_ends(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> Pl
         ),
         axis=1,
     )
-    reach = np.arange(-_BACK, _AHEAD + _STEP / 2, _STEP)
     tips = graph.points[tip].astype(np.float64)
-    profile = sample(value, tips[:, None] + reach[:, None] * outward[:, None])
-    half = LIMITS.end_left * level[:, None]
-    # Where it grows brighter again, another line begins.
-    falls = np.diff(profile, axis=1, prepend=profile[:, :1]) < 0.01 * level[:, None]
-    lit = (profile > half) & (falls | (reach < 0.5))
-    # The first dark sample, seen from inside; exactly where the profile crosses half the level.
-    dark = np.where(lit.all(1), len(reach) - 1, np.argmin(lit, axis=1))
-    before = np.maximum(dark - 1, 0)
-    rows = np.arange(len(free))
-    high, low = profile[rows, before], profile[rows, dark]
-    part = np.clip((high - half[:, 0]) / np.maximum(high - low, 1e-6), 0, 1)
-    move = np.where(dark > 0, reach[before] + part * _STEP, -_BACK)
+    move = _way_to_end(value, tips, outward, level)
     move = np.maximum(move, -0.5 * np.minimum(_BACK, room))
     points, vertices = graph.points.copy(), graph.vertices.copy()
     target = tips + move[:, None] * outward
@@ -81,3 +69,25 @@ def place_ends(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> Pl
         points=points[keep],
         offsets=offsets_of(kept).astype(np.int32),
     )
+
+
+def _way_to_end(value: Array, tips: Array, outward: Array, level: Array) -> Array:
+    """(N,) px from each tip outward to where its line ends, negative = inward.
+
+    Args:
+        value: (H, W) smoothed centerline map.
+        tips: (N, 2) px. outward: (N, 2) unit vectors. level: (N,) brightness of the line.
+    """
+    reach = np.arange(-_BACK, _AHEAD + _STEP / 2, _STEP)
+    profile = sample(value, tips[:, None] + reach[:, None] * outward[:, None])
+    half = LIMITS.end_left * level[:, None]
+    # Where it grows brighter again, another line begins.
+    falls = np.diff(profile, axis=1, prepend=profile[:, :1]) < 0.01 * level[:, None]
+    lit = (profile > half) & (falls | (reach < 0.5))
+    # The first dark sample, seen from inside; exactly where the profile crosses half the level.
+    dark = np.where(lit.all(1), len(reach) - 1, np.argmin(lit, axis=1))
+    before = np.maximum(dark - 1, 0)
+    rows = np.arange(len(tips))
+    high, low = profile[rows, before], profile[rows, dark]
+    part = np.clip((high - half[:, 0]) / np.maximum(high - low, 1e-6), 0, 1)
+    return np.where(dark > 0, reach[before] + part * _STEP, -_BACK)
