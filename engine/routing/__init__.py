@@ -101,7 +101,8 @@ def scorer_for(settings: Settings) -> Scorer:
 
     def by_network(graph: PlanarGraph, pairs: Array, fixed: Fixed) -> Array:
         shape = network.score(graph, pairs, fixed)
-        return shape + geometric.tint_score(graph, pairs)
+        other_ink = geometric.tint_score(graph, pairs) + geometric.medium_score(graph, pairs)
+        return shape + other_ink
 
     if settings.router == "network" or network.available():
         return by_network

@@ -9,6 +9,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..graph.topology import lengths
+from ..ink.pencil import neutral, pencil
 from ..values import Array, PlanarGraph
 from .features import FEATURES, half_features, pair_features, tint_gap
 
@@ -43,6 +45,7 @@ WEIGHTS = {
     "strength": -1.00,
     "tint": -6.00,
 }
+_SHORT = 3.0  # pen widths; about what a junction hides of a branch at both of its ends
 _WEIGHTS = np.array([WEIGHTS[name] for name in FEATURES])
 
 
@@ -59,3 +62,18 @@ def tint_score(graph: PlanarGraph, pairs: Array) -> Array:
     if graph.colors is None:
         return np.zeros(len(pairs), np.float32)
     return (WEIGHTS["tint"] * tint_gap(half_features(graph), *pairs.T)).astype(np.float32)
+
+
+def medium_score(graph: PlanarGraph, pairs: Array) -> Array:
+    """(K,) float32 the share of the score that another medium takes away; 0 where there is one.
+
+    Pencil under ink is another line, as a blue one beside a black one is. Short branches don't
+    count: what crosses them decides how strong they look.
+    """
+    faint, ratio = pencil(graph, neutral(graph), lengths(graph))
+    if ratio == 1.0 or graph.widths is None:
+        return np.zeros(len(pairs), np.float32)
+    sure = lengths(graph) > _SHORT * float(np.median(graph.widths))
+    a, b = (pairs >> 1).T
+    other = (faint[a] != faint[b]) & sure[a] & sure[b]
+    return (WEIGHTS["tint"] * other).astype(np.float32)
