@@ -9,6 +9,7 @@ import numpy as np
 from ..values import Array
 
 _BROADER = 3.0  # times as wide as the other: a second pen
+_MIDDLE = 0.25  # of the way from mean to mean: there a value is neither
 _OWN, _BETWEEN = 0.1, 0.15  # of the lines: what each pen has at least; what is neither, at most
 
 
@@ -39,8 +40,8 @@ def best_split(values: Array, weight: Array) -> Split | None:
     lower, upper = mass[:-1] / below[:-1], (mass[-1] - mass[:-1]) / above
     at = int((below[:-1] * above * (upper - lower) ** 2).argmax())
     low, high = float(lower[at]), float(upper[at])
-    third = (high - low) / 3
-    between = weight[(value > low + third) & (value < high - third)].sum()
+    edge = (1 - _MIDDLE) / 2 * (high - low)
+    between = weight[(value > low + edge) & (value < high - edge)].sum()
     return Split(
         level=float(value[at]),
         low=low,
