@@ -41,6 +41,8 @@ def find_sheet(picture: Array) -> Sheet | None:
         picture: (H, W) or (H, W, 3), dark lines on light.
     """
     shrink = max(1.0, max(picture.shape[:2]) / _SIDE)
+    if min(picture.shape[:2]) < 2 * shrink:  # a strip is no photograph of a sheet
+        return None
     small = cv2.resize(picture, None, fx=1 / shrink, fy=1 / shrink, interpolation=cv2.INTER_AREA)
     gray = as_bytes(darkest_gray(small))
     # Lines are closed, so that a sheet is one light piece however much is drawn on it.

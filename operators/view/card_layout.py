@@ -85,7 +85,8 @@ def card_at(cards: list[Card], x: float, y: float) -> int:
 
 def _columns(count: int, free: Card, scale: float) -> int:
     room = free.width - 2 * scale * _MARGIN + scale * _GAP
-    return max(1, min(count, int(room // (scale * (_WIDTH + _GAP)))))
+    each = max(scale * (_WIDTH + _GAP), 1.0)  # px; without a window Blender knows no scale
+    return max(1, min(count, int(room // each)))
 
 
 def _fits(count: int, free: Card, scale: float) -> bool:

@@ -13,6 +13,7 @@ torch = pytest.importorskip("torch")
 from involute.engine.centerline import backends, onnx_torch  # noqa: E402
 from involute.engine.centerline.backends import load, load_both  # noqa: E402
 from involute.engine.centerline.learned import trace_both, trace_maps  # noqa: E402
+from involute.engine.centerline.tiles import shift_of  # noqa: E402
 from involute.engine.errors import InvoluteError  # noqa: E402
 from involute.synthesis import line_art, media, wear  # noqa: E402
 from involute.synthesis.line_art import Library  # noqa: E402
@@ -247,10 +248,15 @@ def test_all_maps_and_the_features_reach_the_engine(tmp_path):
     plain = trace_maps(ink, load(tmp_path / "net.onnx", "cpu"), lambda fraction: None)
     assert plain.features is None
     np.testing.assert_array_equal(plain.apart, maps.apart)
-    seen, deep = both(np.pad(ink, ((0, 9), (0, 11))))
-    np.testing.assert_allclose(maps.clean[60:80, 90:110], seen[7, 60:80, 90:110], atol=1e-4)
-    inside = np.s_[:, 30:40, 45:55]
-    np.testing.assert_allclose(maps.features[inside], deep[inside], atol=1e-3)
+    # The page as the network's grid, which is counted from the ink, has it.
+    down, right = shift_of(ink)
+    sides = [(p, -(n + p) % 64) for n, p in zip(ink.shape, (down, right), strict=True)]
+    seen, deep = both(np.pad(ink, sides))
+    clean = seen[7, down + 60 : down + 80, right + 90 : right + 110]
+    np.testing.assert_allclose(maps.clean[60:80, 90:110], clean, atol=1e-4)
+    rows, columns = (slice((n + p) // 2, (n + p) // 2 + 10) for n, p in ((60, down), (90, right)))
+    found = maps.features[:, 30:40, 45:55]
+    np.testing.assert_allclose(found, deep[:, rows, columns], atol=1e-3)
 
 
 def test_older_weights_have_five_maps_and_say_that_they_have_no_features():
