@@ -97,7 +97,9 @@ def run(
     tasks = list(tasks)
     receipts.forget_images()
     inputs = Inputs(task.source for task in tasks)
-    remove_leftovers(Path(output) for task in tasks for output in task.outputs)
+
+    def clear_up() -> None:
+        remove_leftovers(Path(output) for task in tasks for output in task.outputs)
 
     def before(task: Task) -> _Todo | Outcome:
         """What is left to do of a task, or what became of it already."""
@@ -106,11 +108,15 @@ def run(
                 return Outcome(task, {}, inputs.refusal(output))
         return _left_to_do(task, over) if resume else _Todo(task)
 
+    clear_up()
     jobs = min(jobs or default_jobs(), len(tasks))
-    if jobs <= 1:
-        yield from _here(tasks, before, progress, begin)
-    else:
-        yield from _elsewhere(tasks, before, jobs)
+    try:
+        if jobs <= 1:
+            yield from _here(tasks, before, progress, begin)
+        else:
+            yield from _elsewhere(tasks, before, jobs)
+    finally:
+        clear_up()  # a worker of a killed run may have ended only now
 
 
 def default_jobs() -> int:

@@ -146,6 +146,9 @@ class Limits:
     )
     undrawn_longest: float = _limit(5.0, "pen widths", "a longer branch stays in any case")
     dust_speck: float = _limit(0.25, "pen widths", "of ink beyond Settings.min_length")
+    dust_point: float = _limit(
+        0.01, "px", "long: a point has no direction and is no line", "tests/engine/test_dust.py"
+    )
     dust_full: float = _limit(80, "percentile", "of strength that is the full ink of the page")
     dust_faint: float = _limit(
         0.5, "share", "of the full ink below which a piece is as likely a scratch as a line"

@@ -74,8 +74,8 @@ def _normals(graph: PlanarGraph) -> Array:
     first, last = np.repeat(graph.offsets[:-1], count), np.repeat(graph.offsets[1:] - 1, count)
     points = graph.points.astype(np.float64)
     along = points[np.minimum(index + 2, last)] - points[np.maximum(index - 2, first)]
-    size = np.maximum(np.hypot(*along.T), 1e-9)[:, None]
-    return np.stack([-along[:, 1], along[:, 0]], -1) / size
+    along[np.hypot(*along.T) < 1e-6] = (1.0, 0.0)  # a dot: it is as wide in every direction
+    return np.stack([-along[:, 1], along[:, 0]], -1) / np.hypot(*along.T)[:, None]
 
 
 def _agreed(graph: PlanarGraph, values: Array) -> Array:

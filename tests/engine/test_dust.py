@@ -36,6 +36,21 @@ def test_dust_goes_and_dots_stay() -> None:
     assert _swept(strokes, widths, ink, Settings(min_length=0.0)).branch_count == 3
 
 
+def test_a_point_is_no_stroke() -> None:
+    """A speck that thinning has shrunk to nothing, beside a dot with a length."""
+    point, dot = np.array([[50.0, 50], [51.5, 50]]), np.array([[90.0, 90], [91.5, 90]])
+    graph, _ = graph_from_strokes([point, dot, LINE])
+    size = np.diff(graph.offsets)
+    points, vertices = graph.points.copy(), graph.vertices.copy()
+    points[points[:, 0] < 60 - 10 * (points[:, 1] > 100)] = (50.0, 50.0)
+    vertices[(vertices[:, 0] > 45) & (vertices[:, 0] < 60)] = (50.0, 50.0)
+    measures = {name: np.full(size.sum(), 4.0, np.float32) for name in ("widths", "strength")}
+    graph = replace(graph, points=points, vertices=vertices, **measures)
+    assert not np.ptp(graph.branch(0), axis=0).any()
+    page = Evidence(LineMaps(np.zeros((1, 1), np.float32)), 4.0)
+    assert remove_dust(graph, page, Settings()).branch_count == 2
+
+
 def test_scratches_go_and_faint_lines_stay() -> None:
     scratch = np.array([[50.0, 50], [70.0, 50]])
     faint = np.array([[10.0, 100], [190, 100]])

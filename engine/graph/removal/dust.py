@@ -44,4 +44,5 @@ def remove_dust(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> P
         round_ = np.bincount(piece, length) <= cap
         wide = cap >= LIMITS.dot_narrowest * settings.min_length * pen
         stays |= round_ & wide & (share >= LIMITS.dot_solid)
+    stays &= np.bincount(piece, length) > LIMITS.dust_point
     return select(graph, stays[piece])
