@@ -32,7 +32,7 @@ class Schedule:
     """How long, how fast, and how often something is written.
 
     steps, minutes: of the whole training, whichever ends first. stop_after: minutes after which
-    this session leaves, to be resumed. rate: highest learning rate; least: the last one's share of
+    this run leaves, to be resumed. rate: highest learning rate; least: the last one's share of
     it. every, save: steps between evaluations and between checkpoints. memory: steps that the
     running mean looks back at most.
     """
