@@ -70,10 +70,11 @@ def medium_score(graph: PlanarGraph, pairs: Array) -> Array:
     Pencil under ink is another line, as a blue one beside a black one is. Short branches don't
     count: what crosses them decides how strong they look.
     """
-    faint, ratio = pencil(graph, neutral(graph), lengths(graph))
+    length = lengths(graph)
+    faint, ratio = pencil(graph, neutral(graph), length)
     if ratio == 1.0 or graph.widths is None:
         return np.zeros(len(pairs), np.float32)
-    sure = lengths(graph) > _SHORT * float(np.median(graph.widths))
+    sure = length > _SHORT * float(np.median(graph.widths))
     a, b = (pairs >> 1).T
     other = (faint[a] != faint[b]) & sure[a] & sure[b]
     return (WEIGHTS["tint"] * other).astype(np.float32)
