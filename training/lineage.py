@@ -22,15 +22,21 @@ _UNKNOWN = "not by an exporter of this repository"
 
 def note_run(folder: Path, options: argparse.Namespace, **more: object) -> None:
     """Write config.json of a run: its options, the commit, the data, the weights it began with."""
-    asked: dict[str, Any] = {
-        k: v if isinstance(v, (int, float)) else str(v) for k, v in vars(options).items()
-    }
+    asked: dict[str, Any] = {k: _plain(v) for k, v in vars(options).items()}
     asked |= {"commit": commit(), "data_sha256": data_digest(options.data)}
     parent = getattr(options, "start", None) or getattr(options, "start_from", None)
     if parent:
         asked["parent"] = of_parent(parent)
     folder.mkdir(parents=True, exist_ok=True)
     (folder / CONFIG).write_text(json.dumps(asked | more, indent=1, default=str), "utf-8")
+
+
+def _plain(value: object) -> object:
+    """An option as it is kept: of a path its name alone, since where it lies says nothing to
+    others and is shipped with the weights."""
+    if isinstance(value, Path):
+        return value.name
+    return value if isinstance(value, (int, float)) else str(value)
 
 
 def of_parent(path: Path) -> dict[str, Any]:

@@ -183,6 +183,7 @@ def test_a_run_stops_resumes_and_is_recorded(drawings, tmp_path):
     config = json.loads((tmp_path / "config.json").read_text())
     assert config["data_sha256"]
     assert config["seed"] == 1
+    assert str(tmp_path) not in json.dumps(config)  # it is shipped with the weights
 
 
 def test_a_run_goes_on_from_shipped_weights(drawings, tmp_path):
