@@ -13,19 +13,21 @@ from time import perf_counter
 
 from .centerline import provider_for
 from .centerline.mending import mended
-from .drawing import Drawing
+from .drawing import Drawing, Fill
 from .errors import Cancelled
 from .fills.solids import split_solids
 from .graph import Evidence, routed, run_passes
 from .graph.passes import ROUTED
 from .ink.unmixing import without_inks
+from .rough import grouping
+from .rough.cleaning import Bundled, bundled, cleaned, is_rough
 from .routing import route
 from .scan import read_scan
 from .scan.registration import set_aside
 from .scan.screentone import without_screentone
 from .scan.wide_lines import find_wide_lines
 from .settings import Settings
-from .values import Array
+from .values import Array, PlanarGraph, Routing, Scan
 from .wide_pens import look_again
 
 Progress = Callable[[str, float], None]
@@ -87,11 +89,34 @@ def vectorize(
     with clock("routing"):
         graph, routing = routed(graph, evidence, settings, route)
         del evidence
+        bundles = _bundles(graph, routing, scan, settings)
     with clock("strokes"):
         drawing = Drawing.from_routing(graph, routing, scan, settings, fills)
+        if bundles is not None:
+            drawing = _clean(drawing, bundles, scan, settings, fills)
     with clock("check"):
         drawing = drawing.compared_with(scan)
     return drawing.with_seconds(clock.seconds)
+
+
+def _bundles(
+    graph: PlanarGraph, routing: Routing, scan: Scan, settings: Settings
+) -> Bundled | None:
+    """The bundles of pencil strokes of a rough drawing; None for a clean one."""
+    known = grouping.available() or settings.drawing == "rough"
+    if settings.drawing == "clean" or not known or graph.branch_count == 0:
+        return None
+    found = bundled(graph, routing.partner, scan.ink)
+    return found if is_rough(found, settings) else None
+
+
+def _clean(
+    drawn: Drawing, bundles: Bundled, scan: Scan, settings: Settings, fills: list[Fill]
+) -> Drawing:
+    """The clean drawing of a rough one."""
+    made = cleaned(bundles, settings, (scan.ink.shape[0], scan.ink.shape[1]))
+    lines = Drawing.from_routing(made.graph, made.routing, scan, settings, fills)
+    return lines.cleaned_from(drawn, made.said)
 
 
 class _Clock:

@@ -22,6 +22,13 @@ from ..values import Array, PlanarGraph, Routing, Stroke
 from .flatten import outline
 from .whole_file import write_text
 
+# A hidden layer, which Inkscape lists; the transform makes simple readers look at it closely enough
+# to see that it is hidden.
+_PENCIL = (
+    '<g id="pencil" inkscape:groupmode="layer" inkscape:label="Pencil" display="none" '
+    'xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape" transform="translate(0 0)" '
+    'fill="none" stroke-linecap="round" stroke-linejoin="round" opacity="0.4">'
+)
 _FARTHEST = 1e7  # px from the page's corner
 _COMMAND = re.compile(r"([MLCZ])([^MLCZ]*)")
 
@@ -45,8 +52,14 @@ def dumps(drawing: Drawing) -> str:
         lines += _areas("region", drawing.regions, [tuple(color) for color in colors.tolist()])
     if drawing.fills:
         lines += _areas("fill", drawing.fills, [(0, 0, 0)] * len(drawing.fills))
+    if drawing.pencil:
+        lines.append(_PENCIL)
+        lines += [_path(i, stroke, "pencil") for i, stroke in enumerate(drawing.pencil.strokes)]
+        lines.append("</g>")
     lines.append('<g id="strokes" fill="none" stroke-linecap="round" stroke-linejoin="round">')
-    lines += [_path(i, stroke) for i, stroke in enumerate(drawing.strokes)]
+    lines += [
+        _path(i, stroke, said_by=drawing.pencil_of(i)) for i, stroke in enumerate(drawing.strokes)
+    ]
     return "\n".join([*lines, "</g>", "</svg>", ""])
 
 
@@ -67,7 +80,8 @@ def read(text: str, name: str = "The file") -> Drawing:
         _, _, width, height = map(_number, root.get("viewBox", "").replace(",", " ").split())
         paths = list(root.iter("{http://www.w3.org/2000/svg}path"))
         fills = tuple(_rings(p.get("d", "")) for p in paths if "data-fill" in p.attrib)
-        lines = [p for p in paths if not {"data-fill", "data-region"} & p.attrib.keys()]
+        apart = {"data-fill", "data-region", "data-pencil"}
+        lines = [p for p in paths if not apart & p.attrib.keys()]
         strokes = tuple(_stroke(element.attrib, i) for i, element in enumerate(lines))
         size = (round(width), round(height))
         drawing = Drawing(*_unconnected(strokes), strokes, fills, size, Settings())
@@ -107,13 +121,15 @@ def _areas(
     return [f'<g id="{kind}s" stroke="none">', *paths, "</g>"]
 
 
-def _path(index: int, stroke: Stroke) -> str:
+def _path(index: int, stroke: Stroke, kind: str = "stroke", said_by: Sequence[int] = ()) -> str:
     data = _polyline(_repeat_first(stroke)) if stroke.handles is None else _bezier(stroke)
     opacity, widths = stroke.opacity, stroke.widths
     parts = [
-        f'<path data-stroke="{index}" d="{data}" fill="none"',
+        f'<path data-{kind}="{index}" d="{data}" fill="none"',
         f'stroke="#{bytes(stroke.color).hex()}" stroke-width="{float(widths.mean()):.4g}"',
     ]
+    if said_by:
+        parts.append(f'data-said-by="{" ".join(map(str, said_by))}"')
     if stroke.closed:
         parts.append('data-closed="1"')
     if opacity.min() < 1:
