@@ -11,6 +11,7 @@ from ..view.view_state import redraw_sidebars
 from .trace_settings import take_from_sidebar
 
 _TICK = 0.1  # seconds between two looks at the job
+_LAST_STEP = 5.0  # seconds that a trace is given to stop, where it looks up about every second
 # While one of these waits for the mouse, objects and undo steps must not come in between.
 _AT_WORK = ("TRANSFORM_OT", "GREASE_PENCIL_OT", "SCULPT_OT", "PAINT_OT", "MESH_OT", "CURVE_OT")
 
@@ -169,8 +170,8 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """End what is running: nobody will be there to take it."""
-    jobs.abandon()
+    """End what is running: nobody will be there to take it, and its files may be replaced."""
+    jobs.abandon(_LAST_STEP)
     bpy.app.handlers.load_pre.remove(_abandon)
 
 
