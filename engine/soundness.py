@@ -22,6 +22,7 @@ _FARTHEST = 10.0 * _LARGEST_SIDE  # px from the page's corner
 _THICKEST = float(_LARGEST_SIDE)  # px
 _APART = 0.05  # px between the end of a branch and its vertex, for rounding
 _SCALES = (1e-3, 1e3)  # input pixels per working pixel
+_DPI = (1.0, 100_000.0)  # pixels per inch; microscopes scan at some 25,000
 
 
 class UnsoundError(ValueError):
@@ -37,6 +38,7 @@ def check_drawing(drawing: Drawing) -> None:
     for side in drawing.size:
         _need(1 <= side <= _LARGEST_SIDE, "its size is not that of a page")
     _need(_SCALES[0] <= drawing.scale <= _SCALES[1], "its scale can't be")
+    _need(drawing.dpi is None or _DPI[0] <= drawing.dpi <= _DPI[1], "its dpi can't be")
     for stage, seconds in drawing.seconds.items():
         _need(isinstance(stage, str) and _is_number(seconds), "its seconds are no numbers")
     for number, stroke in enumerate(drawing.strokes):
