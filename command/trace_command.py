@@ -159,12 +159,20 @@ def _with_piped(names: Sequence[str], folder: Path) -> list[str]:
 
 
 def _chosen(images: Sequence[Path], frames: str | None) -> Sequence[Path]:
-    """The images whose number is asked for; all when nothing is."""
+    """The images whose number is asked for; all when nothing is.
+
+    Raises:
+        UsageError: it can't be read what is asked for.
+    """
     if frames is None:
         return images
     from ..engine.sequence.frames import FrameRange, number_frames
 
-    return [Path(f.path) for f in number_frames(images, frames=FrameRange.parse(frames))]
+    try:
+        wanted = FrameRange.parse(frames)
+    except InvoluteError as error:
+        raise UsageError(str(error)) from None
+    return [Path(f.path) for f in number_frames(images, frames=wanted)]
 
 
 def _page_count(path: Path) -> int:

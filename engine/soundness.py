@@ -176,6 +176,10 @@ def _check_stroke(stroke: Stroke, where: str) -> None:
     if stroke.handles is not None:
         _table(stroke.handles, "f", (count, 2, 2), f"the handles of {where}")
         _within(stroke.handles, _FARTHEST, f"the handles of {where}")
+    # A ring may have one anchor, and its length from the handles.
+    places = stroke.points if stroke.handles is None else stroke.handles.reshape(-1, 2)
+    alike = (places == stroke.points[0]).all() and (stroke.points == stroke.points[0]).all()
+    _need(not alike, f"{where} has no length: all its points are one")
 
 
 def _check_walks(drawing: Drawing) -> None:
