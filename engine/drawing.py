@@ -26,6 +26,7 @@ Fill = tuple[Array, ...]
 
 STROKE_SETTINGS = ("smoothing", "curve", "tolerance")  # change nothing but the last stage
 DOUBTFUL = 0.3  # doubt from which on a junction is worth a look
+USUAL_DPI = 300.0  # pixels per inch of a scan whose file does not say: what the manual advises
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,6 +45,7 @@ class Drawing:
     fidelity: how faithful it was to the ink when it was traced; None when nobody looked.
     notes: what was left out of it on purpose, a sentence each.
     warnings: what is wrong with it, each with what to do about it.
+    dpi: pixels of the input per inch of paper, as its file says; None = it does not say.
     page: what all strokes share, for rerouting; None = found from the graph when first needed. Not
         kept in files.
     """
@@ -61,6 +63,7 @@ class Drawing:
     fidelity: Fidelity | None = None
     notes: tuple[str, ...] = ()
     warnings: tuple[str, ...] = ()
+    dpi: float | None = None
     page: Page | None = field(default=None, repr=False)
 
     @classmethod
@@ -147,6 +150,11 @@ class Drawing:
             return ()
         assert self.graph.widths is not None, "a drawing's graph is measured"
         return closed_regions(self.graph, 4.0 * float(np.median(self.graph.widths)) ** 2)
+
+    @property
+    def mm_per_px(self) -> float:
+        """Millimetres of paper to a pixel of the input, for formats with real sizes."""
+        return 25.4 / (self.dpi or USUAL_DPI)
 
     @property
     def doubtful(self) -> tuple[int, ...]:
