@@ -120,6 +120,13 @@ FORMATS = (
         endings=(b"</svg>",),
         write=_later("svg_plot", "write"),
     ),
+    Format(
+        suffix=".dxf",
+        about="polylines with widths, or splines, in layers by ink, in mm, for CAD programs",
+        endings=(b"EOF",),
+        write=_later("dxf", "write"),
+        needs=("ezdxf", "ezdxf==1.4.5"),
+    ),
 )
 
 

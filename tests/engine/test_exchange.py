@@ -11,6 +11,7 @@ from itertools import pairwise
 from pathlib import Path
 from xml.etree import ElementTree
 
+import ezdxf
 import numpy as np
 import pytest
 import svgelements
@@ -18,6 +19,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from involute.engine import Drawing, InvoluteError, Settings, Stroke
 from involute.engine.formats import FORMATS, format_of, plot_paths, svg
+from involute.engine.formats.flatten import outline
 from involute.engine.formats.pen_shape import pen_shape
 from involute.engine.ink.ink_names import ink_layers
 from shapely import LineString, Point, Polygon, unary_union
@@ -273,6 +275,62 @@ def test_the_short_order_is_short():
     found = plot_paths.in_short_order(lines)
     assert len(found) == 300
     assert up(found) < up(lines) / 8
+
+
+# --- DXF -------------------------------------------------------------------------------------
+
+
+def dxf(drawing: Drawing, folder: Path):
+    drawing.save(folder / "page.dxf")
+    document = ezdxf.readfile(folder / "page.dxf")
+    auditor = document.audit()
+    assert (auditor.errors, auditor.fixes) == ([], [])
+    return document
+
+
+def test_dxf_has_lines_with_widths_in_layers_by_ink(tmp_path):
+    drawing = everything()
+    document = dxf(drawing, tmp_path)
+    assert document.units == ezdxf.units.MM
+    inks = {"Black": BLACK, "Red": RED}
+    for name, color in inks.items():
+        assert document.layers.get(name).rgb == color
+    lines = document.modelspace().query("LWPOLYLINE")
+    assert [line.dxf.layer for line in lines] == ["Black", "Black", "Red"]
+    wavy = lines.first
+    rows = np.array(list(wavy.get_points("xyse")))
+    one = drawing.strokes[0]
+    np.testing.assert_allclose(rows[:, :2], one.points * (0.1, -0.1) + (0, 30), atol=1e-4)
+    np.testing.assert_allclose(rows[:, 2], one.widths / 10, rtol=0.05)
+    np.testing.assert_allclose(rows[:-1, 3], one.widths[1:] / 10, rtol=0.05)
+    assert [line.closed for line in lines] == [False, True, False]
+
+
+def test_curves_are_splines_in_dxf(tmp_path):
+    bent = curve()
+    closed = replace(bent, closed=True)
+    document = dxf(page(bent, closed), tmp_path)
+    for spline, one in zip(document.modelspace().query("SPLINE"), (bent, closed), strict=True):
+        line = outline(one)  # 16 points for each segment
+        tool = spline.construction_tool()
+        points = tool.points(np.linspace(0, len(line) // 16, len(line)))
+        found = np.array([(p.x, p.y) for p in points])
+        np.testing.assert_allclose(found, line * (0.1, -0.1) + (0, 30), atol=1e-3)
+        assert spline.dxf.lineweight == 40  # hundredths of a mm, the mean width
+
+
+def test_solid_areas_are_hatches_with_holes_in_dxf(tmp_path):
+    (hatch,) = dxf(everything(), tmp_path).modelspace().query("HATCH")
+    outer, hole = (Polygon([v[:2] for v in path.vertices]) for path in hatch.paths)
+    assert outer.area == pytest.approx(36.0, rel=1e-3)
+    assert hole.area == pytest.approx(4.0, rel=1e-3)
+    assert hatch.dxf.solid_fill == 1
+
+
+def test_the_same_drawing_gives_the_same_dxf(tmp_path):
+    for name in ("a.dxf", "b.dxf"):
+        everything().save(tmp_path / name)
+    assert (tmp_path / "a.dxf").read_bytes() == (tmp_path / "b.dxf").read_bytes()
 
 
 # --- inks ------------------------------------------------------------------------------------
