@@ -21,6 +21,7 @@ def parser(formats: Sequence[Format] = FORMATS) -> argparse.ArgumentParser:
     commands = made.add_subparsers(dest="command", required=True, metavar="COMMAND")
     _add_trace(commands, formats)
     _add_farm_job(commands)
+    _add_flamenco(commands)
     _add_inspect(commands)
     _add_evaluate(commands)
     return made
@@ -104,6 +105,16 @@ def _add_farm_job(commands: Any) -> None:
     )
     sequence_command.add_frame_options(job)
     _add_settings(job)
+
+
+def _add_flamenco(commands: Any) -> None:
+    flamenco = commands.add_parser(
+        "flamenco",
+        help="write the job type for Flamenco",
+        description="Put the job type 'Involute: Trace Drawings' into a Flamenco Manager's folder "
+        "`scripts`. After a restart of the Manager it is in Blender's Flamenco panel.",
+    )
+    flamenco.add_argument("folder", metavar="DIR", help="the folder `scripts` beside the Manager")
 
 
 def _add_inspect(commands: Any) -> None:
