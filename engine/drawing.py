@@ -30,6 +30,7 @@ STROKE_SETTINGS = ("smoothing", "curve", "tolerance")  # change nothing but the 
 # worth a look. On 48 held-out pages (2,952 junctions) 16 % are, and they hold 61 % of the length of
 # stroke that was wrong; as many of the most doubtful ones hold 26 %.
 DOUBTFUL = 20.0
+USUAL_DPI = 300.0  # pixels per inch of a scan whose file does not say: what the manual advises
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,6 +49,7 @@ class Drawing:
     fidelity: how faithful it was to the ink when it was traced; None when nobody looked.
     notes: what was left out of it on purpose, a sentence each.
     warnings: what is wrong with it, each with what to do about it.
+    dpi: pixels of the input per inch of paper, as its file says; None = it does not say.
     page: what all strokes share, for rerouting; None = found from the graph when first needed. Not
         kept in files.
     """
@@ -65,6 +67,7 @@ class Drawing:
     fidelity: Fidelity | None = None
     notes: tuple[str, ...] = ()
     warnings: tuple[str, ...] = ()
+    dpi: float | None = None
     page: Page | None = field(default=None, repr=False)
 
     @classmethod
@@ -157,6 +160,11 @@ class Drawing:
         """(J,) px: the doubt of each junction times the length of stroke that another answer would
         change; 0 where it is locked."""
         return costs(self.graph, self.strokes, self.junctions)
+
+    @property
+    def mm_per_px(self) -> float:
+        """Millimetres of paper to a pixel of the input, for formats with real sizes."""
+        return 25.4 / (self.dpi or USUAL_DPI)
 
     @property
     def doubtful(self) -> tuple[int, ...]:
