@@ -127,6 +127,14 @@ FORMATS = (
         write=_later("dxf", "write"),
         needs=("ezdxf", "ezdxf==1.4.5"),
     ),
+    Format(
+        suffix=".pdf",
+        about="a page in the size of the paper, with true widths and layers; sequences as pages",
+        endings=(b"%%EOF",),
+        write=_later("pdf", "write"),
+        write_sequence=_later("pdf", "write_sequence"),
+        needs=("pypdf", "pypdf==7.1.0"),
+    ),
 )
 
 
