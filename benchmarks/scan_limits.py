@@ -119,9 +119,7 @@ def rules_left(pages: Sequence[HardPage]) -> dict[str, float]:
     return shares | {"drawing gone": gone / max(1, drawn)}
 
 
-def _tried(
-    module: ModuleType, limits: dict[str, Sequence[Any]]
-) -> Iterator[tuple[str, Any, str]]:
+def _tried(module: ModuleType, limits: dict[str, Sequence[Any]]) -> Iterator[tuple[str, Any, str]]:
     for name, values in limits.items():
         own = getattr(module, name)
         for value in values:

@@ -157,7 +157,10 @@ class Limits:
     # measures
     width_agreed: int = _limit(4, "points", "on either side that agree on a width")
     width_widest: float = _limit(
-        16.0, "pen widths", "wider is no line, as in scan.wide_lines", "tests/engine/test_wide_lines.py"
+        16.0,
+        "pen widths",
+        "wider is no line, as in scan.wide_lines",
+        "tests/engine/test_wide_lines.py",
     )
     # what was most probably never drawn, dust, stubs
     undrawn_sure: float = _limit(

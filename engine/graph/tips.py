@@ -36,9 +36,7 @@ def open_tips(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> Pla
     vertex, degree = graph.half_vertex, graph.degrees
     long = np.repeat(lengths(graph), 2)
     stem = np.flatnonzero(
-        (degree[vertex] == 3)
-        & (degree[vertex[np.arange(len(vertex)) ^ 1]] == 1)
-        & (long < longest)
+        (degree[vertex] == 3) & (degree[vertex[np.arange(len(vertex)) ^ 1]] == 1) & (long < longest)
     )
     # A junction with several stems is no V.
     once = np.bincount(vertex[stem], minlength=len(degree)) == 1

@@ -35,7 +35,7 @@ def test_a_scribble_of_hairpins_is_one_stroke_up_to_its_tips(degrees: int, pen: 
 def test_a_line_that_forks_keeps_its_stem(stem: int) -> None:
     fork = np.array([200.0, 100.0])
     away = 150 * np.array([[-np.cos(0.1), np.sin(0.1)], [-np.cos(0.1), -np.sin(0.1)]])
-    first = np.array([fork + away[0], fork, fork + (stem, 0)])
+    first = np.array([fork + away[0], fork, fork + np.array([stem, 0])])
     drawing = vectorize(drawn([first, np.array([fork + away[1], fork])], 3, (200, 300)), SETTINGS)
     assert len(drawing.strokes) == 2
     assert max(stroke.points[:, 0].max() for stroke in drawing.strokes) > fork[0] + stem - 4
