@@ -1,4 +1,4 @@
-"""What runs the network: OpenCV everywhere, torch on a GPU when it happens to be installed."""
+"""What runs the network: the processor (`runtimes`), or a GPU where torch happens to be installed."""
 
 from __future__ import annotations
 
@@ -6,11 +6,8 @@ from collections.abc import Callable
 from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
-from threading import Lock
 
-import cv2
-import numpy as np
-
+from .. import runtimes
 from .. import weights as shipped
 from ..errors import InvoluteError
 from ..values import Array
@@ -20,6 +17,7 @@ Infer = Callable[[Array], Array]
 InferBoth = Callable[[Array], tuple[Array, Array]]
 """The same, and beside the maps the features they are made of, (F, h / 2, w / 2) float32."""
 
+INPUT = "ink"  # what the network calls it
 _Run = Callable[[Array, int], list[Array]]  # ink -> the first so many outputs
 
 
@@ -64,27 +62,15 @@ def _loaded(weights: Path, device: str) -> _Run:
         return _torch(weights, gpu)
     if device == "gpu":
         raise InvoluteError("Found no GPU that torch can use; choose the device 'auto' or 'cpu'.")
-    return _opencv(weights)
+    return _on_processor(weights)
 
 
-def _opencv(weights: Path) -> _Run:
+def _on_processor(weights: Path) -> _Run:
     try:
-        # From memory: OpenCV can't open every path that Python can.
-        data = np.frombuffer(shipped.read(weights), np.uint8)
-        net = cv2.dnn.readNetFromONNX(data, engine=cv2.dnn.ENGINE_NEW)
-    except cv2.error as error:
+        net = runtimes.load(shipped.read(weights))
+    except ValueError as error:
         raise InvoluteError(f"Can't read the weights in {weights.name}.") from error
-    running = Lock()
-    names = net.getUnconnectedOutLayersNames()
-
-    def infer(ink: Array, count: int) -> list[Array]:
-        with running:  # a net holds the state of its last run
-            net.setInput(ink[None, None])
-            # All outputs or the first: OpenCV takes no other selection.
-            answers = [net.forward()] if count == 1 else net.forward(names)
-            return [answer[0] for answer in answers]
-
-    return infer
+    return lambda ink, count: [answer[0] for answer in net({INPUT: ink[None, None]}, count)]
 
 
 def _torch_gpu() -> str | None:
