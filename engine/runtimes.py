@@ -25,7 +25,7 @@ SAME = 1e-5  # of a map in [0, 1], that two runtimes differ by at most
 _TRIAL = 512  # px, the side of the page that a runtime is tried on
 
 Net = Callable[[Mapping[str, Array], int], list[Array]]
-"""Inputs by name -> the first so many outputs, in the order of the file. Safe in several threads."""
+"""Inputs by name -> the first so many outputs, in the file's order. Several threads may call it."""
 
 
 @dataclass(frozen=True)
@@ -76,9 +76,7 @@ def _in_opencv(content: bytes) -> Net:
 
     try:
         # From memory: OpenCV can't open every path that Python can.
-        net = cv2.dnn.readNetFromONNX(
-            np.frombuffer(content, np.uint8), engine=cv2.dnn.ENGINE_NEW
-        )
+        net = cv2.dnn.readNetFromONNX(np.frombuffer(content, np.uint8), engine=cv2.dnn.ENGINE_NEW)
     except cv2.error as error:
         raise ValueError(str(error)) from error
     running = Lock()

@@ -1,4 +1,4 @@
-"""What runs the network: the processor (`runtimes`), or a GPU where torch happens to be installed."""
+"""What runs the network: the processor (`runtimes`), or a GPU where torch is installed as well."""
 
 from __future__ import annotations
 
@@ -21,25 +21,33 @@ INPUT = "ink"  # what the network calls it
 _Run = Callable[[Array, int], list[Array]]  # ink -> the first so many outputs
 
 
-@cache
 def load(weights: Path, device: str) -> Infer:
-    """The network in a file, on a device; loaded once per process.
+    """The network in a file, on a device; loaded once per process and runtime.
 
     Raises:
         InvoluteError: the file is missing or broken, or there is no GPU though one is asked for.
     """
-    run = _loaded(weights, device)
-    return lambda ink: run(ink, 1)[0]
+    return _for_maps(weights, device, runtimes.chosen().name)
 
 
-@cache
 def load_both(weights: Path, device: str) -> InferBoth:
     """The same network as `load` gives, with its features.
 
     Raises:
         InvoluteError: as `load`; or when called: the weights are older and have no features.
     """
-    run = _loaded(weights, device)
+    return _for_both(weights, device, runtimes.chosen().name)
+
+
+@cache
+def _for_maps(weights: Path, device: str, runtime: str) -> Infer:
+    run = _loaded(weights, device, runtime)
+    return lambda ink: run(ink, 1)[0]
+
+
+@cache
+def _for_both(weights: Path, device: str, runtime: str) -> InferBoth:
+    run = _loaded(weights, device, runtime)
 
     def infer(ink: Array) -> tuple[Array, Array]:
         answers = run(ink, 2)
@@ -51,7 +59,7 @@ def load_both(weights: Path, device: str) -> InferBoth:
 
 
 @cache
-def _loaded(weights: Path, device: str) -> _Run:
+def _loaded(weights: Path, device: str, runtime: str) -> _Run:
     if not weights.exists():
         raise InvoluteError(
             f"The weights of the centerline network ({weights.name}) are missing; reinstall "

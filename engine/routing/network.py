@@ -21,6 +21,7 @@ from . import geometric
 from .encoding import encode
 from .windows import windows
 
+
 def available() -> bool:
     """Whether the weights are there."""
     return (weights.FOLDER / "routing.onnx").exists()
@@ -92,13 +93,17 @@ def calibrated(scores: Array, degree: Array, calibration: Mapping[str, list[floa
     return scores * scale[row][:, None, None] + shift[row][:, None, None]
 
 
-@cache
 def load(folder: Path) -> tuple[runtimes.Net, dict[str, list[float]]]:
     """The network and its calibration: routing.onnx and routing.json of a folder.
 
     Raises:
         InvoluteError: they are missing or can't be read.
     """
+    return _loaded(folder, runtimes.chosen().name)
+
+
+@cache
+def _loaded(folder: Path, runtime: str) -> tuple[runtimes.Net, dict[str, list[float]]]:
     try:
         calibration = json.loads(weights.read(folder / "routing.json"))
         net = runtimes.load(weights.read(folder / "routing.onnx"))
