@@ -18,7 +18,7 @@ RUN = (*STAGES, "check")
 OTHER = {
     name: (about.values[1:2] if about.kind is tuple else about.values[-1])
     if about.choices
-    else {"pen_width": 4.0, "solid_width": 9.0}.get(name, None)
+    else {"pen_width": 4.0, "solid_width": 9.0}.get(name)
     for name, about in ABOUT.items()
 }
 OTHER |= {name: not Settings.__dataclass_fields__[name].default
