@@ -6,17 +6,18 @@ are the same objects in the new drawing, so whoever shows them can tell by ident
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from itertools import pairwise
 from os import PathLike
 
 import numpy as np
 
 from .errors import InvoluteError
 from .fidelity import Fidelity, fidelity, warnings
-from .graph.editing import cut_branch, join_ends, place_on
-from .routing import checked_pairs, route
+from .graph.editing import Edits, Step, edited, place_on
+from .routing import around, checked_pairs, rescored, route
 from .routing.lifting import goes_on
 from .settings import Settings
 from .strokes import Page, build, walk
@@ -44,6 +45,8 @@ class Drawing:
     fidelity: how faithful it was to the ink when it was traced; None when nobody looked.
     notes: what was left out of it on purpose, a sentence each.
     warnings: what is wrong with it, each with what to do about it.
+    edits: what was cut and joined since it was traced or read; None = nothing. Not kept in files,
+        whose graph has it.
     page: what all strokes share, for rerouting; None = found from the graph when first needed. Not
         kept in files.
     """
@@ -61,6 +64,7 @@ class Drawing:
     fidelity: Fidelity | None = None
     notes: tuple[str, ...] = ()
     warnings: tuple[str, ...] = ()
+    edits: Edits | None = field(default=None, repr=False)
     page: Page | None = field(default=None, repr=False)
 
     @classmethod
@@ -170,6 +174,26 @@ class Drawing:
             partner[a], partner[b] = b, a
         return self._with_partner(partner)._with_locked([junction], True)
 
+    def reroute_along(self, halves: Sequence[int]) -> Drawing:
+        """Let one stroke run through these half-branches, in walking order; what else meets at the
+        places that it passes is decided anew around it, and all of them are locked.
+
+        Raises:
+            InvoluteError: they do not follow each other, or pass no place.
+        """
+        vertex = self.graph.half_vertex
+        steps = [(int(a) ^ 1, int(b)) for a, b in pairwise(halves)]
+        if not steps or any(a == b or vertex[a] != vertex[b] for a, b in steps):
+            raise InvoluteError("Lines that follow each other at a junction are needed.")
+        asked: dict[int, list[Pair]] = {}
+        for a, b in steps:
+            asked.setdefault(int(vertex[b]), []).append((min(a, b), max(a, b)))
+        drawing = self
+        for at, pairs in asked.items():
+            ways = around(self.graph.halves_of(at), self.routing, set(pairs))
+            drawing = drawing.reroute(self._at_vertex(at).index, ways)
+        return drawing
+
     def lock(self, junction: int) -> Drawing:
         """Keep this junction or corner as it is: it counts as certain, and `ask_again` learns from
         it."""
@@ -227,7 +251,7 @@ class Drawing:
         """
         place = place_on(self.graph, self._stroke(stroke).branches, np.asarray(point, float))
         if place.half < 0:
-            return self._with_graph(*cut_branch(self.graph, self.routing, place.point))
+            return self.with_edits([(place.point, -1)])
         if self.routing.partner[place.half] == place.half:
             raise InvoluteError("This stroke ends there already.")
         there = self._at_vertex(int(self.graph.half_vertex[place.half]))
@@ -252,7 +276,39 @@ class Drawing:
             return self.reroute(there.index, [*there.pairs, (a, b)])
         if (self.graph.degrees[vertex[[a, b]]] != 1).any():
             raise InvoluteError("Only ends that meet, or that hang on nothing, can be joined.")
-        return self._with_graph(*join_ends(self.graph, self.routing, a, b))
+        return self.with_edits([(a, b)])
+
+    def with_edits(self, steps: Iterable[Step]) -> Drawing:
+        """Cut and join, as `edits.steps` of another drawing tell it: each step makes a corner, the
+        last one, which is locked. Strokes that have none of the changed branches stay.
+
+        Raises:
+            ValueError: a step does not fit the graph.
+        """
+        steps = tuple(steps)
+        graph, routing, touched = edited(self.graph, self.routing, steps)
+        if not steps:
+            return self
+        page = Page.of(graph, self.settings)
+        gone = [s for s in self.strokes if not touched.isdisjoint((s.branches >> 1).tolist())]
+        branches = touched.union(*((s.branches >> 1).tolist() for s in gone))
+        left = {id(s) for s in gone}
+        kept = [s for s in self.strokes if id(s) not in left]
+        made = build(page, walk(routing.partner, branches))
+        strokes = tuple(sorted([*kept, *made], key=lambda s: int(s.branches.min()) >> 1))
+        before = self.edits or Edits(self.graph, ())
+        edits = Edits(before.graph, before.steps + steps)
+        return replace(self, graph=graph, routing=routing, strokes=strokes, page=page, edits=edits)
+
+    def with_scores(self, pair_score: Array) -> Drawing:
+        """The same routing with other log-odds of the pairs, and the alternatives that follow.
+
+        Args:
+            pair_score: (K,) as in `Routing`.
+        """
+        keep = {place.index: place.pairs for place in self._places if place.locked}
+        routing = rescored(self.graph, self.routing, pair_score, keep)
+        return replace(self, routing=routing)
 
     def ask_again(self) -> Drawing:
         """Route the junctions and corners that are not locked anew, given those that are."""
@@ -307,20 +363,6 @@ class Drawing:
     def _pairs_at_corners(self) -> Array:
         """(C, 2) int32: the two half-branches of each corner."""
         return self.routing.pairs[len(self.routing.pairs) - len(self.graph.corners) :]
-
-    def _with_graph(self, graph: PlanarGraph, routing: Routing) -> Drawing:
-        """A drawing whose graph has one corner more, the last one, which is locked as it is. Old
-        branches keep their numbers, and strokes that have none of the changed ones stay."""
-        halves = graph.halves_of(graph.corners[-1])
-        changed = {int(half) >> 1 for half in halves}
-        page = Page.of(graph, self.settings)
-        gone = [s for s in self.strokes if not changed.isdisjoint((s.branches >> 1).tolist())]
-        branches = changed.union(*((s.branches >> 1).tolist() for s in gone))
-        left = {id(s) for s in gone}
-        kept = [s for s in self.strokes if id(s) not in left]
-        made = build(page, walk(routing.partner, branches))
-        strokes = sorted([*kept, *made], key=lambda s: int(s.branches.min()) >> 1)
-        return replace(self, graph=graph, routing=routing, strokes=tuple(strokes), page=page)
 
     def _with_partner(self, partner: Array) -> Drawing:
         """Walk anew what the changed half-branches belong to; keep all other strokes."""

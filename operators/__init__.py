@@ -23,6 +23,9 @@ _VERBS = (
     "junctions.reroute",
     "junctions.join",
     "junctions.separate",
+    "junctions.cut",
+    "junctions.route_along",
+    "junctions.pen_lifts",
     "junctions.lock",
     "junctions.accept",
     "junctions.ask_again",
@@ -49,6 +52,7 @@ def register() -> None:
 
     from . import blender_command
     from .grease_pencil import saving
+    from .junctions import pen_lifts
     from .tracing import background, trace_settings, use_defaults
     from .view import view_state
 
@@ -57,6 +61,7 @@ def register() -> None:
     pointer = bpy.props.PointerProperty
     bpy.types.Scene.involute = pointer(type=trace_settings.INVOLUTE_PG_trace_settings)
     bpy.types.WindowManager.involute_view = pointer(type=view_state.INVOLUTE_PG_view)
+    pen_lifts.register()
     saving.register()
     background.register()
     use_defaults.register()
@@ -69,12 +74,14 @@ def unregister() -> None:
 
     from . import blender_command
     from .grease_pencil import saving
+    from .junctions import pen_lifts
     from .tracing import background, use_defaults
 
     blender_command.unregister()
     use_defaults.unregister()
     background.unregister()
     saving.unregister()
+    pen_lifts.unregister()
     del bpy.types.WindowManager.involute_view
     del bpy.types.Scene.involute
     for cls in reversed(_classes()):

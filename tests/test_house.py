@@ -113,7 +113,8 @@ def test_the_pure_core_knows_no_blender():
     """Plan purely, apply once: what a rerouting changes is worked out without Blender."""
     pure = [n for n in trees() if n.startswith("operators.grease_pencil.core")]
     pure += [
-        f"operators.view.{n}" for n in ("card_layout", "picking", "junction_table", "junction_cost")
+        f"operators.view.{n}"
+        for n in ("card_layout", "picking", "following", "junction_table", "junction_cost")
     ]
     for name in pure:
         for node in on_loading(trees()[name]):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import bpy
 
 from ..operators.junctions.choose import INVOLUTE_OT_choose
+from ..operators.junctions.cut import INVOLUTE_OT_swipe_cut
 from ..operators.junctions.drag_join import INVOLUTE_OT_drag_join, INVOLUTE_OT_separate_under_mouse
 
 
@@ -13,7 +14,8 @@ class _Junctions:
     bl_label = "Junctions"
     bl_description = (
         "Click a junction to choose among its alternatives\n"
-        "Drag from one line to another to join them\n"
+        "Drag along a line to let one stroke follow it; from line to line or end to end to join\n"
+        "Ctrl-drag or Alt-drag across strokes to cut them\n"
         "Ctrl-click or Alt-click a line to end it at its junction"
     )
     bl_icon = "ops.node.add_reroute"
@@ -26,10 +28,10 @@ class _Junctions:
         (INVOLUTE_OT_drag_join.bl_idname, {"type": "LEFTMOUSE", "value": "CLICK_DRAG"}, None),
         # Some window managers take Alt-click for themselves.
         *(
-            (
-                INVOLUTE_OT_separate_under_mouse.bl_idname,
-                {"type": "LEFTMOUSE", "value": "PRESS", key: True},
-                None,
+            (operator.bl_idname, {"type": "LEFTMOUSE", "value": value, key: True}, None)
+            for operator, value in (
+                (INVOLUTE_OT_separate_under_mouse, "CLICK"),
+                (INVOLUTE_OT_swipe_cut, "CLICK_DRAG"),
             )
             for key in ("ctrl", "alt")
         ),

@@ -8,11 +8,13 @@ junction follows, with its ranked alternatives.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 
 import numpy as np
 
 from ..errors import InvoluteError
 from ..graph.topology import joined
+from ..involution import best_matching, pairs_of
 from ..settings import Settings
 from ..values import Array, Pair, PlanarGraph, Routing
 from . import lifting
@@ -54,6 +56,17 @@ def route(graph: PlanarGraph, settings: Settings, fixed: Fixed | None = None) ->
     locked = np.zeros(len(graph.places), bool)
     locked[list(fixed)] = True
     return Routing(partner, pairs, np.asarray(score, np.float32), alternatives, locked)
+
+
+def rescored(graph: PlanarGraph, routing: Routing, pair_score: Array, keep: Fixed) -> Routing:
+    """A routing with other log-odds, the ranks and probabilities of all ways to route that follow.
+
+    Args:
+        pair_score: (K,) in the order of its pairs.
+        keep: as in `ranked_alternatives`.
+    """
+    ways = ranked_alternatives(graph, pair_score, keep)
+    return replace(routing, pair_score=np.asarray(pair_score, np.float32), alternatives=ways)
 
 
 def with_corners(routing: Routing, graph: PlanarGraph) -> Routing:
@@ -107,6 +120,26 @@ def scorer_for(settings: Settings) -> Scorer:
     if settings.router == "network" or network.available():
         return by_network
     return by_geometry
+
+
+def around(halves: Array, routing: Routing, pairs: set[Pair]) -> tuple[Pair, ...]:
+    """The best way to route a junction in which some pairs are joined in any case.
+
+    Args:
+        halves: (d,) the half-branches there. pairs: each a < b.
+
+    Raises:
+        InvoluteError: a half-branch is in two of the pairs.
+    """
+    taken = [half for pair in pairs for half in pair]
+    if len(set(taken)) != len(taken):
+        raise InvoluteError("A line can go on in one other only.")
+    free = np.setdiff1d(halves, taken)
+    score = np.zeros((len(free), len(free)))
+    here = np.isin(routing.pairs, free).all(1)
+    a, b = np.searchsorted(free, routing.pairs[here]).T
+    score[a, b] = score[b, a] = routing.pair_score[here]
+    return tuple(sorted([*pairs, *pairs_of(best_matching(score), free)]))
 
 
 def checked_pairs(graph: PlanarGraph, junction: int, pairs: tuple[Pair, ...]) -> tuple[Pair, ...]:
