@@ -20,8 +20,10 @@ from ..values import Array, Pair, PlanarGraph, Routing
 from . import lifting
 from .alternatives import ranked_alternatives
 from .candidates import candidate_pairs
+from .neighbourhood import Neighbourhood
 
 Fixed = Mapping[int, tuple[Pair, ...]]
+_HEARD = 1e-3  # log-odds; smaller changes are those of rounding
 Scorer = Callable[[PlanarGraph, Array, Fixed], Array]
 
 
@@ -58,15 +60,62 @@ def route(graph: PlanarGraph, settings: Settings, fixed: Fixed | None = None) ->
     return Routing(partner, pairs, np.asarray(score, np.float32), alternatives, locked)
 
 
-def rescored(graph: PlanarGraph, routing: Routing, pair_score: Array, keep: Fixed) -> Routing:
+def rescored(
+    graph: PlanarGraph, routing: Routing, pair_score: Array, keep: Fixed, only: Array | None = None
+) -> Routing:
     """A routing with other log-odds, the ranks and probabilities of all ways to route that follow.
 
     Args:
         pair_score: (K,) in the order of its pairs.
         keep: as in `ranked_alternatives`.
+        only: numbers of the places whose log-odds are others; None = all.
     """
-    ways = ranked_alternatives(graph, pair_score, keep)
+    ways = ranked_alternatives(graph, pair_score, keep, only)
+    if only is not None:
+        changed = set(only.tolist())
+        known = zip(ways, routing.alternatives, strict=True)
+        ways = tuple(new if k in changed else old for k, (new, old) in enumerate(known))
     return replace(routing, pair_score=np.asarray(pair_score, np.float32), alternatives=ways)
+
+
+def taught(
+    graph: PlanarGraph, routing: Routing, before: Fixed, after: Fixed, settings: Settings
+) -> tuple[Array, Array]:
+    """What decisions teach about the junctions around them.
+
+    The scorer looks at the neighbourhood twice, with the decisions of before and of after: the
+    difference counts, so that it does not matter that it sees no more of the page.
+
+    Args:
+        graph: in working pixels.
+        before, after: what is decided; they differ at a few junctions.
+
+    Returns:
+        (K,) float32 log-odds of all pairs, and the numbers of the junctions where they changed.
+    """
+    differ = {j for j in {*before, *after} if before.get(j) != after.get(j)}
+    centers = np.array([j for j in sorted(differ) if j < len(graph.junctions)], np.int64)
+    part = Neighbourhood.of(graph, graph.junctions[centers])
+    heard = np.isin(graph.places, part.near)
+    rows = np.flatnonzero(heard[place_of_pairs(graph, routing.pairs)])
+    if not len(centers) or not len(rows):
+        return routing.pair_score, np.zeros(0, np.int64)
+    pairs = part.number[routing.pairs[rows]]
+    old, new = (
+        _at_junctions(part.graph, pairs, part.fixed(graph, fixed), settings)
+        for fixed in (before, after)
+    )
+    score = routing.pair_score.copy()
+    score[rows] += new - old
+    moved = rows[np.abs(new - old) > _HEARD]
+    return score, np.unique(place_of_pairs(graph, routing.pairs[moved]))
+
+
+def place_of_pairs(graph: PlanarGraph, pairs: Array) -> Array:
+    """(K,) int: the number of the place at which the half-branches of each pair meet."""
+    number = np.full(len(graph.vertices), -1)
+    number[graph.places] = np.arange(len(graph.places))
+    return number[graph.half_vertex[pairs[:, 0]]]
 
 
 def with_corners(routing: Routing, graph: PlanarGraph) -> Routing:
