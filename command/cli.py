@@ -1,4 +1,4 @@
-"""The command line: `involute trace`, `inspect`, `evaluate` and `farm-job`.
+"""The command line: `involute trace`, `inspect`, `evaluate`, `farm-job` and `flamenco`.
 
 Thin over the engine: what can be asked is said in `arguments`, how it is done in a module for each
 command. What the engine may not import (Blender for .blend, the metrics of the benchmark) is handed
@@ -75,6 +75,10 @@ def _run(argv: Sequence[str] | None, formats: Sequence[Format], evaluate: Evalua
         return _trace(options, formats)
     if options.command == "farm-job":
         print(sequence_command.write_farm_job(options, settings_of(options)))
+    elif options.command == "flamenco":
+        from .flamenco import write_job_type
+
+        print(write_job_type(Path(options.folder)))
     elif options.command == "inspect":
         from . import inspect_command
 

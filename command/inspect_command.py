@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..engine.formats import FORMATS, load
+from ..engine.formats import format_of, load
 from ..engine.settings import Settings
 
 if TYPE_CHECKING:
@@ -20,7 +20,8 @@ def about(path: Path) -> Iterator[str]:
     Raises:
         InvoluteError: it can't be read.
     """
-    if path.suffix.lower() in {f.suffix for f in FORMATS if f.read}:
+    kind = format_of(path)
+    if kind and kind.read:
         return _about_drawing(load(path))
     return _about_scan(path)
 

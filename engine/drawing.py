@@ -27,6 +27,7 @@ Fill = tuple[Array, ...]
 
 STROKE_SETTINGS = ("smoothing", "curve", "tolerance")  # change nothing but the last stage
 DOUBTFUL = 0.3  # doubt from which on a junction is worth a look
+USUAL_DPI = 300.0  # pixels per inch of a scan whose file does not say: what the manual advises
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,6 +48,7 @@ class Drawing:
     warnings: what is wrong with it, each with what to do about it.
     edits: what was cut and joined since it was traced or read; None = nothing. Not kept in files,
         whose graph has it.
+    dpi: pixels of the input per inch of paper, as its file says; None = it does not say.
     page: what all strokes share, for rerouting; None = found from the graph when first needed. Not
         kept in files.
     """
@@ -65,6 +67,7 @@ class Drawing:
     notes: tuple[str, ...] = ()
     warnings: tuple[str, ...] = ()
     edits: Edits | None = field(default=None, repr=False)
+    dpi: float | None = None
     page: Page | None = field(default=None, repr=False)
 
     @classmethod
@@ -160,6 +163,11 @@ class Drawing:
             halves = self.graph.halves_of(self.graph.places[place]).tolist()
             found[place] = tuple((h, int(partner[h])) for h in halves if h < partner[h])
         return found
+
+    @property
+    def mm_per_px(self) -> float:
+        """Millimetres of paper to a pixel of the input, for formats with real sizes."""
+        return 25.4 / (self.dpi or USUAL_DPI)
 
     @property
     def doubtful(self) -> tuple[int, ...]:

@@ -1,0 +1,295 @@
+"""What other programs get: each format opened by a reader that nobody here wrote.
+
+Strokes, their order, widths to 5 %, layers and frames are held against the drawing.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from itertools import pairwise
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+import svgelements
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+from involute.engine import Drawing, InvoluteError, Settings, Stroke
+from involute.engine.formats import FORMATS, format_of, plot_paths, svg
+from involute.engine.formats.pen_shape import pen_shape
+from involute.engine.ink.ink_names import ink_layers
+from shapely import LineString, Point, Polygon, unary_union
+from shapely.ops import polygonize
+
+STEP = np.array([30, 10], np.float32)
+BLACK, RED = (16, 16, 20), (200, 30, 30)
+LABEL = "{http://www.inkscape.org/namespaces/inkscape}label"
+
+
+def stroke(points, widths, color=BLACK, closed=False, handles=None, opacity=1.0) -> Stroke:
+    points = np.array(points, np.float32)
+    count = len(points)
+    return Stroke(
+        points,
+        np.broadcast_to(np.array(widths, np.float32), count).copy(),
+        np.full(count, opacity, np.float32),
+        closed,
+        color,
+        np.zeros(1, np.int32),
+        None if handles is None else np.array(handles, np.float32),
+    )
+
+
+def page(*strokes: Stroke, fills=(), size=(400, 300), dpi=254.0) -> Drawing:
+    """A drawing of these strokes; at 254 dpi ten pixels are a millimetre."""
+    numbered = tuple(
+        replace(s, branches=np.array([2 * i], np.int32)) for i, s in enumerate(strokes)
+    )
+    return Drawing(*svg._unconnected(numbered), numbered, fills, size, Settings(), dpi=dpi)
+
+
+def wave(color=BLACK, y=60.0, thin=2.0, thick=9.0) -> Stroke:
+    """A line that swells from thin to thick and back."""
+    x = np.linspace(40, 360, 41)
+    widths = thin + (thick - thin) * np.sin(np.linspace(0, np.pi, 41))
+    return stroke(np.stack([x, y + 12 * np.sin(x / 50)], 1), widths, color)
+
+
+def ring(center=(200, 200), radius=50.0, width=4.0, color=BLACK) -> Stroke:
+    angle = np.linspace(0, 2 * np.pi, 33)[:-1]
+    points = np.array(center) + radius * np.stack([np.cos(angle), np.sin(angle)], 1)
+    return stroke(points, width, color, closed=True)
+
+
+def curve(color=RED) -> Stroke:
+    points = np.array([[40, 250], [150, 150], [260, 250]], np.float32)
+    handles = np.stack([points - STEP, points + STEP], 1)
+    handles[0, 0], handles[-1, 1] = points[0], points[-1]
+    return stroke(points, [3, 6, 3], color, handles=handles)
+
+
+SQUARE = np.array([[300, 200], [360, 200], [360, 260], [300, 260]], np.float32)
+HOLE = ((SQUARE - [330, 230]) / 3 + [330, 230])[::-1].astype(np.float32)
+
+
+def everything() -> Drawing:
+    """Two inks, in turns; lines, a ring and a curve; a solid area with a hole."""
+    return page(wave(), wave(RED, 120), ring(), curve(), fills=((SQUARE, HOLE),))
+
+
+def true_shape(line, radii) -> Polygon:
+    """What a round pen covers: the hulls of its discs from point to point."""
+    discs = [Point(*p).buffer(r, 32) for p, r in zip(line, radii, strict=True)]
+    return unary_union([unary_union(pair).convex_hull for pair in pairwise(discs)] or discs)
+
+
+def filled(rings) -> Polygon:
+    """The area of rings by the nonzero rule."""
+    closed = [np.vstack([r, r[:1]]) for r in rings]
+    faces = polygonize(unary_union([LineString(r) for r in closed]))
+    return unary_union([f for f in faces if _winding(f.representative_point(), closed)])
+
+
+def _winding(point: Point, rings) -> int:
+    total = 0.0
+    for r in rings:
+        x, y = (r - [point.x, point.y]).T
+        total += ((np.diff(np.arctan2(y, x)) + np.pi) % (2 * np.pi) - np.pi).sum()
+    return round(total / (2 * np.pi))
+
+
+def width_across(shape, line, at: int) -> float:
+    """How wide a shape is across a line at one of its points."""
+    way = line[at + 1] - line[at - 1]
+    across = 40 * np.array([-way[1], way[0]]) / np.hypot(*way)
+    cut = shape.intersection(LineString([line[at] - across, line[at] + across]))
+    parts = getattr(cut, "geoms", [cut])
+    return min(parts, key=lambda part: part.distance(Point(line[at]))).length
+
+
+def ends_of(path: svgelements.Path) -> np.ndarray:
+    """Where the segments of a path end."""
+    return np.array([[segment.end.x, segment.end.y] for segment in path.segments()])
+
+
+# --- names -----------------------------------------------------------------------------------
+
+
+def test_the_longer_ending_names_the_format():
+    assert format_of("a/Page.PLOT.svg").name == "plot.svg"
+    assert format_of("a/plot.svg").name == "svg"
+    assert format_of(".svg") is None
+
+
+def test_the_manual_has_a_row_for_every_format():
+    manual = Path(__file__).resolve().parents[2] / "docs" / "manual" / "formats.md"
+    rows = [line for line in manual.read_text("utf-8").splitlines() if line.startswith("| `.")]
+    assert {re.match(r"\| `([^`]+)`", row)[1] for row in rows} == {
+        *(f.suffix for f in FORMATS),
+        ".blend",
+    }
+
+
+# --- SVG with shapes -------------------------------------------------------------------------
+
+
+def test_outlines_have_the_true_widths(tmp_path):
+    drawing = everything()
+    drawing.save(tmp_path / "page.outline.svg")
+    document = svgelements.SVG.parse(str(tmp_path / "page.outline.svg"), reify=True)
+    shapes = [p for p in document.elements() if "data-outline" in getattr(p, "values", {})]
+    assert len(shapes) == len(drawing.strokes)
+    by_number = {int(p.values["data-outline"]): p for p in shapes}
+    for number in (0, 1):
+        one, path = drawing.strokes[number], by_number[number]
+        shape = filled([ends_of(svgelements.Path(part)) for part in path.as_subpaths()])
+        for at in range(2, 39, 4):
+            measured = width_across(shape, one.points.astype(float), at)
+            assert measured == pytest.approx(one.widths[at], rel=0.05)
+        assert path.fill.hex == "#" + bytes(one.color).hex()
+
+
+def test_outlines_are_in_a_layer_per_ink_and_lines_in_a_hidden_one(tmp_path):
+    drawing = everything()
+    drawing.save(tmp_path / "page.outline.svg")
+    root = ElementTree.parse(tmp_path / "page.outline.svg").getroot()
+    layers = {g.get(LABEL): g for g in root if g.get(LABEL)}
+    assert list(layers) == ["Solids", "Black", "Red", "Center Lines"]
+    assert len(layers["Black"]) == len(layers["Red"]) == 2
+    assert "display:none" in layers["Center Lines"].get("style")
+
+
+def test_outlines_are_read_back_as_strokes(tmp_path):
+    drawing = everything()
+    drawing.save(tmp_path / "page.outline.svg")
+    again = Drawing.load(tmp_path / "page.outline.svg")
+    assert len(again.strokes) == 4
+    for one, other in zip(drawing.strokes, again.strokes, strict=True):
+        np.testing.assert_allclose(one.points, other.points, atol=2e-3)
+        np.testing.assert_allclose(one.widths, other.widths, atol=2e-3)
+        assert (one.color, one.closed) == (other.color, other.closed)
+    assert len(again.fills) == 1
+
+
+@settings(max_examples=60, deadline=None)
+@example(points=[(0, 0), (0, 0)], widths=[1.0, 2.0], closed=False)
+@given(
+    points=st.lists(st.tuples(*[st.integers(0, 100)] * 2), min_size=1, max_size=8, unique=True),
+    widths=st.lists(st.floats(0.5, 12), min_size=8, max_size=8),
+    closed=st.booleans(),
+)
+def test_the_shape_of_any_stroke_is_what_its_pen_covers(points, widths, closed):
+    if not closed and len(points) < 2:
+        return
+    one = stroke(points, widths[: len(points)], closed=closed)
+    line = np.vstack([one.points, one.points[:1]]) if closed else one.points
+    radii = np.append(one.widths, one.widths[:1]) / 2 if closed else one.widths / 2
+    true, ours = true_shape(line, radii), filled(pen_shape(one))
+    # Beside a taper the sides run a little inside of the hull of the two discs.
+    slack = 0.1 + float(np.ptp(radii)) / 2
+    assert ours.difference(true.buffer(slack)).area < 0.5
+    assert true.buffer(-slack).difference(ours).area < 0.5 + 0.02 * true.area
+
+
+# --- SVG for plotters ------------------------------------------------------------------------
+
+
+def plotted(path: Path) -> dict[str, list[np.ndarray]]:
+    """The lines of each layer, as svgelements reads them, in mm."""
+    found: dict[str, list[np.ndarray]] = {}
+    document = svgelements.SVG.parse(str(path), ppi=25.4, reify=True)
+    for group in document.select(lambda e: isinstance(e, svgelements.Group)):
+        name = group.values.get("attributes", {}).get(LABEL)
+        for one in group.select(lambda e: isinstance(e, svgelements.Path)):
+            if name:
+                found.setdefault(name, []).append(ends_of(one))
+    return found
+
+
+def test_plots_are_in_millimetres_with_a_layer_per_pen(tmp_path):
+    everything().save(tmp_path / "page.plot.svg")
+    document = svgelements.SVG.parse(str(tmp_path / "page.plot.svg"), ppi=25.4)
+    assert (document.width, document.height) == pytest.approx((40.0, 30.0))
+    layers = plotted(tmp_path / "page.plot.svg")
+    assert list(layers) == ["1 Black", "2 Red", "3 Solids"]
+    (line,) = [line for line in layers["1 Black"] if not np.allclose(line[0], line[-1])]
+    np.testing.assert_allclose(sorted(line[[0, -1], 0]), [4.0, 36.0], atol=0.01)
+
+
+def test_a_line_drawn_twice_is_plotted_once(tmp_path):
+    twice = wave()
+    again = stroke(twice.points[::-1][10:] + np.float32(0.3), 3)
+    crossing = stroke([[200, 10], [210, 110]], 3)
+    page(twice, again, crossing).save(tmp_path / "page.plot.svg")
+    lines = plotted(tmp_path / "page.plot.svg")["1 Black"]
+    drawn = sum(plot_paths.arc(line)[-1] for line in lines)
+    once = sum(plot_paths.arc(s.points)[-1] for s in (twice, crossing)) / 10
+    assert drawn == pytest.approx(once, rel=0.01)
+    assert len(lines) == 2
+
+
+def test_lines_that_meet_are_plotted_in_one_go(tmp_path):
+    pieces = [stroke([[x, 50], [x + 40, 50]], 3) for x in (200, 40, 160, 80, 120)]
+    page(*pieces).save(tmp_path / "page.plot.svg")
+    (line,) = plotted(tmp_path / "page.plot.svg")["1 Black"]
+    assert np.ptp(line[:, 0]) == pytest.approx(20.0, abs=0.01)
+
+
+def test_solid_areas_are_hatched_and_their_holes_are_not(tmp_path):
+    everything().save(tmp_path / "page.plot.svg")
+    lines = plotted(tmp_path / "page.plot.svg")["3 Solids"]
+    ink = unary_union([LineString(line) for line in lines]).buffer(0.25)
+    area = Polygon(SQUARE / 10, [HOLE / 10])
+    assert area.difference(ink).area < 0.02 * area.area
+    assert ink.intersection(Polygon(HOLE / 10).buffer(-0.3)).area == 0
+
+
+@settings(max_examples=40, deadline=None)
+@given(
+    st.lists(
+        st.lists(st.tuples(*[st.integers(0, 60)] * 2), min_size=2, max_size=5, unique=True),
+        max_size=12,
+    )
+)
+def test_plots_lose_nothing_and_invent_nothing(lines):
+    lines = [np.array(line, np.float64) for line in lines]
+    found = plot_paths.joined(plot_paths.without_doubles(lines, 2.0), 2.0)
+    found = plot_paths.in_short_order(found)
+    before = unary_union([LineString(line) for line in lines])
+    after = unary_union([LineString(line) for line in found])
+    assert before.difference(after.buffer(1.0)).length < 0.5
+    assert after.difference(before.buffer(1.0)).length < 0.5
+
+
+def test_the_short_order_is_short():
+    rng = np.random.default_rng(3)
+    lines = [rng.random(2) * 1000 + rng.random((2, 2)) * 20 for _ in range(300)]
+
+    def up(ordered) -> float:
+        return sum(np.hypot(*(b[0] - a[-1])) for a, b in pairwise(ordered))
+
+    found = plot_paths.in_short_order(lines)
+    assert len(found) == 300
+    assert up(found) < up(lines) / 8
+
+
+# --- inks ------------------------------------------------------------------------------------
+
+
+def test_inks_of_one_name_have_layers_of_their_own():
+    layers = ink_layers([wave(), wave(RED), wave(RED), wave((220, 10, 60))])
+    assert [(ink.name, ink.numbers) for ink in layers] == [
+        ("Red", (1, 2)),
+        ("Black", (0,)),
+        ("Red 2", (3,)),
+    ]
+
+
+def test_what_lacks_its_library_says_which(monkeypatch, tmp_path):
+    monkeypatch.setattr("involute.engine.formats.find_spec", lambda name: None)
+    for kind in FORMATS:
+        if kind.needs:
+            with pytest.raises(InvoluteError, match=f"needs the library {kind.needs[0]}"):
+                everything().save(tmp_path / f"page{kind.suffix}")
