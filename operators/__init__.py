@@ -25,7 +25,7 @@ _VERBS = (
     "junctions.separate",
     "junctions.cut",
     "junctions.route_along",
-    "junctions.pen_lifts",
+    "junctions.lift_bias",
     "junctions.lock",
     "junctions.accept",
     "junctions.ask_again",
@@ -52,7 +52,7 @@ def register() -> None:
 
     from . import blender_command
     from .grease_pencil import saving
-    from .junctions import pen_lifts
+    from .junctions import lift_bias
     from .tracing import background, trace_settings, use_defaults
     from .view import view_state
 
@@ -61,7 +61,7 @@ def register() -> None:
     pointer = bpy.props.PointerProperty
     bpy.types.Scene.involute = pointer(type=trace_settings.INVOLUTE_PG_trace_settings)
     bpy.types.WindowManager.involute_view = pointer(type=view_state.INVOLUTE_PG_view)
-    pen_lifts.register()
+    lift_bias.register()
     saving.register()
     background.register()
     use_defaults.register()
@@ -74,14 +74,14 @@ def unregister() -> None:
 
     from . import blender_command
     from .grease_pencil import saving
-    from .junctions import pen_lifts
+    from .junctions import lift_bias
     from .tracing import background, use_defaults
 
     blender_command.unregister()
     use_defaults.unregister()
     background.unregister()
     saving.unregister()
-    pen_lifts.unregister()
+    lift_bias.unregister()
     del bpy.types.WindowManager.involute_view
     del bpy.types.Scene.involute
     for cls in reversed(_classes()):

@@ -6,7 +6,7 @@ import bpy
 
 from ..operators.junctions.choose import INVOLUTE_OT_choose
 from ..operators.junctions.cut import INVOLUTE_OT_swipe_cut
-from ..operators.junctions.drag_join import INVOLUTE_OT_drag_join, INVOLUTE_OT_separate_under_mouse
+from ..operators.junctions.drag_join import INVOLUTE_OT_drag_join
 
 
 class _Junctions:
@@ -28,10 +28,10 @@ class _Junctions:
         (INVOLUTE_OT_drag_join.bl_idname, {"type": "LEFTMOUSE", "value": "CLICK_DRAG"}, None),
         # Some window managers take Alt-click for themselves.
         *(
-            (operator.bl_idname, {"type": "LEFTMOUSE", "value": value, key: True}, None)
-            for operator, value in (
-                (INVOLUTE_OT_separate_under_mouse, "CLICK"),
-                (INVOLUTE_OT_swipe_cut, "CLICK_DRAG"),
+            (
+                INVOLUTE_OT_swipe_cut.bl_idname,
+                {"type": "LEFTMOUSE", "value": "PRESS", key: True},
+                None,
             )
             for key in ("ctrl", "alt")
         ),

@@ -10,9 +10,12 @@ from ...engine import InvoluteError
 from ..grease_pencil import cels
 from ..grease_pencil.core.crossed import Crossing, crossed, cut_all
 from ..language import message
+from ..view.on_screen import halves_under, junction_of
 from ..view.view_state import Shown, make_current, shown_in, traced_in
 from .junction_operator import JunctionOperator
 from .path_gesture import PathGesture, on_page, path_of
+
+_CLICK = 4.0  # px of the screen; what is shorter is no swipe
 
 
 class INVOLUTE_OT_cut(JunctionOperator, bpy.types.Operator):
@@ -39,13 +42,15 @@ class INVOLUTE_OT_cut(JunctionOperator, bpy.types.Operator):
 
 
 class INVOLUTE_OT_swipe_cut(PathGesture, bpy.types.Operator):
-    """Swipe across strokes to cut them there"""
+    """Swipe across strokes to cut them there; a click on a line ends it at its junction"""
 
     bl_idname = "involute.swipe_cut"
     bl_label = "Swipe to Cut"
 
     def drawn(self, context: bpy.types.Context, places: np.ndarray) -> set[str]:
         """Cut what the swipe crosses; of several drawings, the first that it does."""
+        if np.ptp(places, axis=0).max() <= _CLICK * context.preferences.system.ui_scale:
+            return self._separate(context, tuple(places[0]))
         for shown in traced_in(context):
             path, _ = on_page(context, shown, places)
             try:
@@ -53,10 +58,19 @@ class INVOLUTE_OT_swipe_cut(PathGesture, bpy.types.Operator):
             except InvoluteError:
                 continue
             if found:
-                make_current(context, shown, shown.view.junction)
+                make_current(context, shown, -1)
                 return bpy.ops.involute.cut("EXEC_DEFAULT", True, path=path)
         self.report({"INFO"}, message("The swipe crosses no stroke."))
         return {"CANCELLED"}
+
+    def _separate(self, context: bpy.types.Context, mouse: tuple[float, float]) -> set[str]:
+        found = halves_under(context, mouse)
+        if found is None:
+            return {"CANCELLED"}
+        shown, near = found
+        half = min(near, key=near.get)
+        make_current(context, shown, junction_of(shown, half))
+        return bpy.ops.involute.separate("EXEC_DEFAULT", True, half=half)
 
 
 def crossings_of(shown: Shown, path: np.ndarray) -> list[Crossing]:

@@ -1,5 +1,4 @@
-"""Drag along a line to route it, to another one to join them; Ctrl-click ends a line at its
-junction."""
+"""Drag along a line to route it, to another one or from end to end to join them."""
 
 from __future__ import annotations
 
@@ -8,10 +7,9 @@ import numpy as np
 
 from ..language import message
 from ..view.following import followed
-from ..view.on_screen import end_under, halves_under
+from ..view.on_screen import end_under, halves_under, junction_of, line_under
 from ..view.picking import nearest_pair
-from ..view.view_state import Shown, make_current, shown_in
-from .junction_operator import JunctionOperator
+from ..view.view_state import make_current
 from .path_gesture import PathGesture, on_page
 
 
@@ -25,24 +23,24 @@ class INVOLUTE_OT_drag_join(PathGesture, bpy.types.Operator):
         """Only a drag that begins at a line is ours."""
         found = halves_under(context, mouse)
         if found is None:
-            end = end_under(context, mouse)
             self._first = {}
-            return end is not None
+            return line_under(context, mouse) is not None or end_under(context, mouse) is not None
         shown, self._first = found
-        make_current(context, shown, _junction_of(shown, min(self._first, key=self._first.get)))
+        make_current(context, shown, junction_of(shown, min(self._first, key=self._first.get)))
         return True
 
     def drawn(self, context: bpy.types.Context, places: np.ndarray) -> set[str]:
         """A path along lines routes; else its two ends say what is joined."""
-        shown = shown_in(context)
+        shown = line_under(context, tuple(places[0]))
         if shown is not None:
+            make_current(context, shown, -1)
             path, radius = on_page(context, shown, places)
             line = np.array([item["loc"] for item in path])
             if len(followed(shown.trace.drawing.graph, line, radius)) >= 2:
                 return bpy.ops.involute.route_along("EXEC_DEFAULT", True, path=path, radius=radius)
         ends = [end_under(context, tuple(place)) for place in (places[0], places[-1])]
         if all(ends) and ends[0][1] != ends[1][1] and ends[0][0].object == ends[1][0].object:
-            make_current(context, ends[0][0], ends[0][0].view.junction)
+            make_current(context, ends[0][0], -1)
             pair = ends[0][1], ends[1][1]
             return bpy.ops.involute.join("EXEC_DEFAULT", True, first=pair[0], second=pair[1])
         return self._join_near(context, tuple(places[-1]))
@@ -58,33 +56,8 @@ class INVOLUTE_OT_drag_join(PathGesture, bpy.types.Operator):
             )
             self.report({"INFO"}, said)
             return {"CANCELLED"}
-        make_current(context, found[0], _junction_of(found[0], pair[0]))
+        make_current(context, found[0], junction_of(found[0], pair[0]))
         return bpy.ops.involute.join("EXEC_DEFAULT", True, first=pair[0], second=pair[1])
 
 
-class INVOLUTE_OT_separate_under_mouse(JunctionOperator, bpy.types.Operator):
-    """End the line under the mouse at its junction"""
-
-    bl_idname = "involute.separate_under_mouse"
-    bl_label = "Separate Line"
-    bl_options = {"INTERNAL"}
-
-    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Separate the line under the mouse."""
-        if context.region_data is None:
-            return {"CANCELLED"}
-        found = halves_under(context, (event.mouse_region_x, event.mouse_region_y))
-        if found is None:
-            return {"PASS_THROUGH"}
-        shown, near = found
-        half = min(near, key=near.get)
-        make_current(context, shown, _junction_of(shown, half))
-        return bpy.ops.involute.separate("EXEC_DEFAULT", True, half=half)
-
-
-def _junction_of(shown: Shown, half: int) -> int:
-    graph = shown.trace.drawing.graph
-    return int(np.searchsorted(graph.junctions, graph.half_vertex[half]))
-
-
-CLASSES = (INVOLUTE_OT_drag_join, INVOLUTE_OT_separate_under_mouse)
+CLASSES = (INVOLUTE_OT_drag_join,)

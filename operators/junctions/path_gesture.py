@@ -30,7 +30,9 @@ class PathGesture(JunctionOperator):
         if context.region_data is None:
             return {"CANCELLED"}
         region = context.region
-        start = event.mouse_prev_press_x - region.x, event.mouse_prev_press_y - region.y
+        start = event.mouse_region_x, event.mouse_region_y
+        if event.value != "PRESS":  # the drag is known by now, the button went down before
+            start = event.mouse_prev_press_x - region.x, event.mouse_prev_press_y - region.y
         if not self.begins_at(context, start):
             return {"PASS_THROUGH"}
         view_of(context).trail.clear()

@@ -91,6 +91,22 @@ def halves_under(context: bpy.types.Context, mouse: Mouse) -> tuple[Shown, dict[
     return None
 
 
+def line_under(context: bpy.types.Context, mouse: Mouse) -> Shown | None:
+    """The drawing that has any line near the mouse."""
+    radius = _LINE_RADIUS * context.preferences.system.ui_scale
+    for shown in traced_in(context):
+        places = places_on_screen(context, shown, shown.trace.drawing.graph.points)
+        if nearest(places, mouse, radius) >= 0:
+            return shown
+    return None
+
+
+def junction_of(shown: Shown, half: int) -> int:
+    """The number of the junction at which a half-branch starts."""
+    graph = shown.trace.drawing.graph
+    return int(np.searchsorted(graph.junctions, graph.half_vertex[half]))
+
+
 def cards_of(context: bpy.types.Context, shown: Shown) -> tuple[list[Card], float]:
     """The cards of the current junction's alternatives in the region, and their scale."""
     junction = shown.junction

@@ -468,7 +468,6 @@ TEXTS = {
     "Number of a half-branch": "Nummer eines Halbzweigs",
     "Number of the other half-branch": "Nummer des anderen Halbzweigs",
     "Ends": "Endet",
-    "Separate Line": "Linie trennen",
     "Separate Lines": "Linien trennen",
     "Separate All Lines": "Alle Linien trennen",
     "End a line at its junction, or all lines of the current junction": (
@@ -476,9 +475,6 @@ TEXTS = {
     ),
     "Line": "Linie",
     "Number of the half-branch; -1 separates all": "Nummer des Halbzweigs; -1 trennt alle",
-    "End the line under the mouse at its junction": (
-        "Die Linie unter der Maus an ihrer Kreuzung enden lassen"
-    ),
     "Drag to Join": "Ziehen zum Verbinden",
     "Choose a junction first.": "Wähle zuerst eine Kreuzung.",
     "This junction has {count} alternatives.": "Diese Kreuzung hat {count} Möglichkeiten.",
@@ -648,9 +644,6 @@ TEXTS = {
     "Radius": "Umkreis",
     "Route Along Path": "An einem Weg entlang führen",
     "Set Pen Lifts": "Absetzen einstellen",
-    "Swipe across strokes to cut them there": (
-        "Quer über Striche wischen, um sie dort zu zerschneiden"
-    ),
     "Swipe to Cut": "Mit einem Wisch zerschneiden",
     "The swipe crosses no stroke.": "Der Wisch kreuzt keinen Strich.",
     "Where the cut runs, in pixels of the scan": "Wo der Schnitt verläuft, in Pixeln des Scans",
@@ -658,4 +651,8 @@ TEXTS = {
         "Wo der Strich verlaufen soll, in Pixeln des Scans"
     ),
     "{count} strokes": "{count} Striche",
+    "Swipe across strokes to cut them there; a click on a line ends it at its junction": (
+        "Quer über Striche wischen, um sie dort zu zerschneiden; ein Klick auf eine Linie lässt "
+        "sie an ihrer Kreuzung enden"
+    ),
 }
