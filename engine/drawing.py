@@ -18,6 +18,7 @@ from .errors import InvoluteError
 from .fidelity import Fidelity, fidelity, warnings
 from .graph.editing import Edits, Step, edited, place_on
 from .routing import around, checked_pairs, rescored, route, taught
+from .routing.cost import costs
 from .routing.lifting import goes_on
 from .settings import Settings
 from .strokes import Page, build, walk
@@ -26,7 +27,10 @@ from .values import Array, Junction, Pair, PlanarGraph, Routing, Scan, Stroke
 Fill = tuple[Array, ...]
 
 STROKE_SETTINGS = ("smoothing", "curve", "tolerance")  # change nothing but the last stage
-DOUBTFUL = 0.3  # doubt from which on a junction is worth a look
+# Pen widths of stroke that a junction's answer puts at risk (doubt x length) from which on it is
+# worth a look. On 48 held-out pages (2,952 junctions) 16 % are, and they hold 61 % of the length of
+# stroke that was wrong; as many of the most doubtful ones hold 26 %.
+DOUBTFUL = 20.0
 USUAL_DPI = 300.0  # pixels per inch of a scan whose file does not say: what the manual advises
 
 
@@ -164,6 +168,12 @@ class Drawing:
             found[place] = tuple((h, int(partner[h])) for h in halves if h < partner[h])
         return found
 
+    @cached_property
+    def costs(self) -> Array:
+        """(J,) px: the doubt of each junction times the length of stroke that another answer would
+        change; 0 where it is locked."""
+        return costs(self.graph, self.strokes, self.junctions)
+
     @property
     def mm_per_px(self) -> float:
         """Millimetres of paper to a pixel of the input, for formats with real sizes."""
@@ -171,10 +181,13 @@ class Drawing:
 
     @property
     def doubtful(self) -> tuple[int, ...]:
-        """The doubtful junctions that are not locked, most doubtful first."""
-        doubt = np.array([junction.doubt for junction in self.junctions])
-        order = np.argsort(-doubt, kind="stable")
-        return tuple(int(index) for index in order if doubt[index] >= DOUBTFUL)
+        """The junctions whose answer matters and is not certain, the most costly first."""
+        if not len(self.costs):
+            return ()
+        assert self.graph.widths is not None, "a drawing's graph is measured"
+        least = DOUBTFUL * float(np.median(self.graph.widths))
+        order = np.argsort(-self.costs, kind="stable")
+        return tuple(order[self.costs[order] >= least].tolist())
 
     def reroute(self, junction: int, pairs: Iterable[Pair]) -> Drawing:
         """Join exactly these half-branches at a junction or corner, end the others there, and lock

@@ -120,6 +120,21 @@ FORMATS = (
         endings=(b"</svg>",),
         write=_later("svg_plot", "write"),
     ),
+    Format(
+        suffix=".dxf",
+        about="polylines with widths, or splines, in layers by ink, in mm, for CAD programs",
+        endings=(b"EOF",),
+        write=_later("dxf", "write"),
+        needs=("ezdxf", "ezdxf==1.4.5"),
+    ),
+    Format(
+        suffix=".pdf",
+        about="a page in the size of the paper, with true widths and layers; sequences as pages",
+        endings=(b"%%EOF",),
+        write=_later("pdf", "write"),
+        write_sequence=_later("pdf", "write_sequence"),
+        needs=("pypdf", "pypdf==7.1.0"),
+    ),
 )
 
 

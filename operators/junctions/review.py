@@ -112,9 +112,7 @@ class INVOLUTE_OT_review(CardChoice, bpy.types.Operator):
 
 def open_doubts(shown: Shown, passed: object) -> np.ndarray:
     """The doubtful junctions that are neither locked nor passed, the most costly first."""
-    from ...engine.drawing import DOUBTFUL
-
-    listed = shown.table.listed("COST", DOUBTFUL, unlocked=True)
+    listed = shown.table.listed("COST", doubtful=True, unlocked=True)
     return listed[np.isin(listed, list(passed), invert=True)]
 
 

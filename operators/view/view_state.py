@@ -131,11 +131,9 @@ class Shown:
     @property
     def listed(self) -> np.ndarray:
         """The numbers of the junctions that pass the filters, in the list's order."""
-        from ...engine.drawing import DOUBTFUL
-
         return self.table.listed(
             self.view.order,
-            DOUBTFUL if self.view.doubtful_only else 0.0,
+            self.view.doubtful_only,
             int(self.view.degree),
             self.view.unlocked_only,
         )

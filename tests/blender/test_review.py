@@ -12,7 +12,7 @@ from .test_splicing import drawing_of
 
 def test_lengths_are_those_from_a_half_branch_to_the_end_of_its_stroke(part):
     drawing = cross(part)  # two lines through one junction, and a circle
-    beyond = part("operators.view.junction_cost").lengths_beyond(drawing)
+    beyond = part("engine.routing.cost").lengths_beyond(drawing.graph, drawing.strokes)
     (junction,) = drawing.junctions
     for a, b in junction.pairs:
         stroke = next(s for s in drawing.strokes if a in s.branches or b in s.branches)
@@ -23,15 +23,14 @@ def test_lengths_are_those_from_a_half_branch_to_the_end_of_its_stroke(part):
 
 def test_where_more_depends_on_it_costs_more(part):
     drawing = cross(part)
-    costs = part("operators.view.junction_cost").costs
-    (cost,) = costs(drawing)
+    (cost,) = drawing.costs
     junction = drawing.junctions[0]
     (other,) = [way.pairs for way in junction.alternatives if way.pairs != junction.pairs][:1]
     (ended,) = set(junction.pairs) - set(other)  # one line goes on, the other becomes two
-    beyond = part("operators.view.junction_cost").lengths_beyond(drawing)
+    beyond = part("engine.routing.cost").lengths_beyond(drawing.graph, drawing.strokes)
     assert cost == pytest.approx(junction.doubt * min(beyond[list(ended)]))
     assert cost > 0
-    assert costs(drawing.lock(0)).tolist() == [0.0]
+    assert drawing.lock(0).costs.tolist() == [0.0]
 
 
 def test_a_review_asks_for_what_is_open(bpy, part):
@@ -39,13 +38,12 @@ def test_a_review_asks_for_what_is_open(bpy, part):
     bpy.context.view_layer.objects.active = obj
     review = part("operators.junctions.review")
     view_state = part("operators.view.view_state")
-    doubtful = part("engine.drawing").DOUBTFUL
 
     def left(passed=()):
         return review.open_doubts(view_state.shown_in(bpy.context), passed).tolist()
 
     table = view_state.shown_in(bpy.context).table
-    assert sorted(left()) == np.flatnonzero(table.doubt >= doubtful).tolist()
+    assert sorted(left()) == np.flatnonzero(table.doubtful).tolist()
     costs = table.cost[left()]
     assert (np.diff(costs) <= 0).all()
     if left():

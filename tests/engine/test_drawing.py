@@ -117,11 +117,14 @@ def test_drawings_are_in_input_pixels(scribble) -> None:
     )
 
 
-def test_doubtful_junctions_come_most_doubtful_first(scribble) -> None:
+def test_doubtful_are_the_junctions_whose_answer_matters_the_most_costly_first(scribble) -> None:
     drawing = _drawing(scribble, 11, 12)
-    doubt = [drawing.junctions[i].doubt for i in drawing.doubtful]
-    assert doubt == sorted(doubt, reverse=True)
-    assert all(d >= DOUBTFUL for d in doubt)
+    assert drawing.graph.widths is not None
+    least = DOUBTFUL * np.median(drawing.graph.widths)
+    asked = list(drawing.doubtful)
+    assert (np.diff(drawing.costs[asked]) <= 0).all()
+    assert sorted(asked) == np.flatnonzero(drawing.costs >= least).tolist()
+    assert all(drawing.costs[j.index] == 0 for j in drawing.junctions if j.doubt == 0)
     sure = drawing.accept_above(0.6)
     for before, after in zip(drawing.junctions, sure.junctions, strict=True):
         assert after.locked == (1 - before.doubt >= 0.6)

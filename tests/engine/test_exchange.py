@@ -6,18 +6,24 @@ Strokes, their order, widths to 5 %, layers and frames are held against the draw
 from __future__ import annotations
 
 import re
+import shutil
+import subprocess
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 from xml.etree import ElementTree
 
+import cv2
+import ezdxf
 import numpy as np
+import pypdf
 import pytest
 import svgelements
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from involute.engine import Drawing, InvoluteError, Settings, Stroke
 from involute.engine.formats import FORMATS, format_of, plot_paths, svg
+from involute.engine.formats.flatten import outline
 from involute.engine.formats.pen_shape import pen_shape
 from involute.engine.ink.ink_names import ink_layers
 from shapely import LineString, Point, Polygon, unary_union
@@ -273,6 +279,116 @@ def test_the_short_order_is_short():
     found = plot_paths.in_short_order(lines)
     assert len(found) == 300
     assert up(found) < up(lines) / 8
+
+
+# --- DXF -------------------------------------------------------------------------------------
+
+
+def dxf(drawing: Drawing, folder: Path):
+    drawing.save(folder / "page.dxf")
+    document = ezdxf.readfile(folder / "page.dxf")
+    auditor = document.audit()
+    assert (auditor.errors, auditor.fixes) == ([], [])
+    return document
+
+
+def test_dxf_has_lines_with_widths_in_layers_by_ink(tmp_path):
+    drawing = everything()
+    document = dxf(drawing, tmp_path)
+    assert document.units == ezdxf.units.MM
+    inks = {"Black": BLACK, "Red": RED}
+    for name, color in inks.items():
+        assert document.layers.get(name).rgb == color
+    lines = document.modelspace().query("LWPOLYLINE")
+    assert [line.dxf.layer for line in lines] == ["Black", "Black", "Red"]
+    wavy = lines.first
+    rows = np.array(list(wavy.get_points("xyse")))
+    one = drawing.strokes[0]
+    np.testing.assert_allclose(rows[:, :2], one.points * (0.1, -0.1) + (0, 30), atol=1e-4)
+    np.testing.assert_allclose(rows[:, 2], one.widths / 10, rtol=0.05)
+    np.testing.assert_allclose(rows[:-1, 3], one.widths[1:] / 10, rtol=0.05)
+    assert [line.closed for line in lines] == [False, True, False]
+
+
+def test_curves_are_splines_in_dxf(tmp_path):
+    bent = curve()
+    closed = replace(bent, closed=True)
+    document = dxf(page(bent, closed), tmp_path)
+    for spline, one in zip(document.modelspace().query("SPLINE"), (bent, closed), strict=True):
+        line = outline(one)  # 16 points for each segment
+        tool = spline.construction_tool()
+        points = tool.points(np.linspace(0, len(line) // 16, len(line)))
+        found = np.array([(p.x, p.y) for p in points])
+        np.testing.assert_allclose(found, line * (0.1, -0.1) + (0, 30), atol=1e-3)
+        assert spline.dxf.lineweight == 40  # hundredths of a mm, the mean width
+
+
+def test_solid_areas_are_hatches_with_holes_in_dxf(tmp_path):
+    (hatch,) = dxf(everything(), tmp_path).modelspace().query("HATCH")
+    outer, hole = (Polygon([v[:2] for v in path.vertices]) for path in hatch.paths)
+    assert outer.area == pytest.approx(36.0, rel=1e-3)
+    assert hole.area == pytest.approx(4.0, rel=1e-3)
+    assert hatch.dxf.solid_fill == 1
+
+
+def test_the_same_drawing_gives_the_same_dxf(tmp_path):
+    for name in ("a.dxf", "b.dxf"):
+        everything().save(tmp_path / name)
+    assert (tmp_path / "a.dxf").read_bytes() == (tmp_path / "b.dxf").read_bytes()
+
+
+# --- PDF -------------------------------------------------------------------------------------
+
+
+def poppler(tool: str, *arguments: str | Path) -> str:
+    """What one of Poppler's tools prints."""
+    if shutil.which(tool) is None:
+        pytest.skip(f"needs {tool} (apt install poppler-utils)")
+    done = subprocess.run([tool, *map(str, arguments)], capture_output=True, text=True, check=True)
+    assert done.stderr == ""
+    return done.stdout
+
+
+def test_pdf_is_as_large_as_the_paper_and_has_the_inks_where_they_were(tmp_path):
+    everything().save(tmp_path / "page.pdf")
+    info = poppler("pdfinfo", tmp_path / "page.pdf")
+    width, height = map(float, re.search(r"Page size: +([\d.]+) x ([\d.]+) pts", info).groups())
+    assert (width / 72 * 254, height / 72 * 254) == pytest.approx((400, 300), abs=0.1)
+    poppler("pdftoppm", "-r", 254 * 4, "-png", "-singlefile", tmp_path / "page.pdf", tmp_path / "p")
+    picture = cv2.imread(str(tmp_path / "p.png"))
+    assert picture.shape[:2] == pytest.approx((1200, 1600), abs=1)
+    for one in everything().strokes[:2]:
+        for at in range(2, 39, 4):
+            x, y = (one.points[at] * 4).astype(int)
+            assert np.abs(picture[y, x, ::-1].astype(int) - one.color).max() < 6
+            column = picture[y - 40 : y + 40, x, 0] < 128  # blue: both inks lack it
+            step = one.points[at + 1] - one.points[at - 1]
+            across = column.sum() / 4 * abs(step[0]) / np.hypot(*step)
+            assert across == pytest.approx(one.widths[at], rel=0.05, abs=0.15)
+    assert picture[230 * 4, 330 * 4].min() == 255  # the hole of the solid area
+    assert picture[205 * 4, 305 * 4].max() == 0
+
+
+def test_pdf_has_a_layer_per_ink(tmp_path):
+    everything().save(tmp_path / "page.pdf")
+    root = pypdf.PdfReader(tmp_path / "page.pdf").trailer["/Root"]
+    groups = [group.get_object() for group in root["/OCProperties"]["/OCGs"]]
+    assert [group["/Name"] for group in groups] == ["Solids", "Black", "Red"]
+
+
+def test_even_strokes_are_lines_in_pdf(tmp_path):
+    bent = replace(curve(), widths=np.full(3, 4, np.float32))
+    page(bent, ring()).save(tmp_path / "page.pdf")
+    text = pypdf.PdfReader(tmp_path / "page.pdf").pages[0].get_contents().get_data().decode()
+    assert re.search(r"4 w .* c S$", text, re.MULTILINE)
+    assert re.search(r"4 w .* l s$", text, re.MULTILINE)
+
+
+def test_a_sequence_is_the_pages_of_a_pdf(tmp_path):
+    kind = format_of("shot.pdf")
+    frames = [(1, page(wave())), (4, page(ring(), wave(RED)))]
+    kind.write_sequence("shot", iter(frames), tmp_path / "shot.pdf")
+    assert "Pages:           2" in poppler("pdfinfo", tmp_path / "shot.pdf")
 
 
 # --- inks ------------------------------------------------------------------------------------

@@ -1,40 +1,36 @@
 """What a wrong answer at a junction would cost: doubt times the length of stroke that changes.
 
-Pure NumPy. A doubtful hair that crosses a long line costs nothing; a doubtful crossing of two long
-lines costs both of them.
+A doubtful hair that crosses a long line costs nothing; a doubtful crossing of two long lines costs
+both of them. So whoever decides the most costly junctions first mends most of a page.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from ...engine import Drawing, Junction
-
-Array = np.ndarray
+from ..values import Array, Junction, PlanarGraph, Stroke
 
 
-def costs(drawing: Drawing) -> Array:
+def costs(graph: PlanarGraph, strokes: Sequence[Stroke], junctions: Sequence[Junction]) -> Array:
     """(J,) px: doubt of each junction times the length of stroke that another answer moves."""
-    beyond = lengths_beyond(drawing)
-    return np.array([_cost(junction, beyond) for junction in drawing.junctions], np.float64)
+    beyond = lengths_beyond(graph, strokes)
+    return np.array([_cost(junction, beyond) for junction in junctions], np.float64)
 
 
-def lengths_beyond(drawing: Drawing) -> Array:
+def lengths_beyond(graph: PlanarGraph, strokes: Sequence[Stroke]) -> Array:
     """(2B,) px: the length of stroke from where each half-branch starts, outward to its end."""
-    graph = drawing.graph
     points = graph.points.astype(np.float64)
     steps = np.concatenate([[0.0], np.linalg.norm(np.diff(points, axis=0), axis=1)])
     along = np.cumsum(steps)
     lengths = along[graph.offsets[1:] - 1] - along[graph.offsets[:-1]]
     found = np.repeat(lengths, 2)
-    strokes = [stroke.branches for stroke in drawing.strokes if len(stroke.branches)]
-    if not strokes:
+    walked = [stroke.branches for stroke in strokes if len(stroke.branches)]
+    if not walked:
         return found
-    halves = np.concatenate(strokes).astype(np.int64)
-    sizes = np.array([len(branches) for branches in strokes])
+    halves = np.concatenate(walked).astype(np.int64)
+    sizes = np.array([len(branches) for branches in walked])
     starts = np.repeat(np.cumsum(sizes) - sizes, sizes)
     total = np.cumsum(lengths[halves >> 1])
     before = total - lengths[halves >> 1]  # where each half-branch begins on all strokes in a row
