@@ -20,6 +20,7 @@ from .graph.editing import Edits, Step, edited, place_on
 from .routing import around, checked_pairs, rescored, route, taught
 from .routing.cost import costs
 from .routing.lifting import goes_on
+from .routing.ways import Ways
 from .settings import Settings
 from .strokes import Page, build, walk
 from .values import Array, Junction, Pair, PlanarGraph, Routing, Scan, Stroke
@@ -130,24 +131,23 @@ class Drawing:
 
     @cached_property
     def _places(self) -> tuple[Junction, ...]:
+        return tuple(self.place(number) for number in range(len(self.graph.places)))
+
+    def place(self, number: int) -> Junction:
+        """One junction or corner, without looking at the others."""
         graph, routing = self.graph, self.routing
-        order, starts = (values.tolist() for values in graph.halves_at)
-        partner, position = routing.partner.tolist(), graph.vertices.tolist()
-        locked = routing.locked.tolist()
-        found = []
-        for index, vertex in enumerate(graph.places.tolist()):
-            halves = tuple(order[starts[vertex] : starts[vertex + 1]])
-            found.append(
-                Junction(
-                    index=index,
-                    position=tuple(position[vertex]),
-                    half_branches=halves,
-                    pairs=tuple((h, partner[h]) for h in halves if h < partner[h]),
-                    alternatives=routing.alternatives[index],
-                    locked=locked[index],
-                )
-            )
-        return tuple(found)
+        order, starts = graph.halves_at
+        vertex = graph.places[number]
+        halves = order[starts[vertex] : starts[vertex + 1]]
+        pairs = zip(halves.tolist(), routing.partner[halves].tolist(), strict=True)
+        return Junction(
+            index=int(number),
+            position=tuple(graph.vertices[vertex].tolist()),
+            half_branches=tuple(halves.tolist()),
+            pairs=tuple((a, b) for a, b in pairs if a < b),
+            alternatives=routing.alternatives[number],
+            locked=bool(routing.locked[number]),
+        )
 
     @cached_property
     def regions(self) -> tuple[Fill, ...]:
@@ -172,7 +172,12 @@ class Drawing:
     def costs(self) -> Array:
         """(J,) px: the doubt of each junction times the length of stroke that another answer would
         change; 0 where it is locked."""
-        return costs(self.graph, self.strokes, self.junctions)
+        return costs(self.graph, self.routing, self.strokes)
+
+    @cached_property
+    def doubts(self) -> Array:
+        """(J,) the doubt of each junction: 1 - probability of its routing; 0 where it is locked."""
+        return Ways.of(self.graph, self.routing).doubts(self.routing)
 
     @property
     def mm_per_px(self) -> float:
@@ -235,8 +240,12 @@ class Drawing:
 
     def accept_above(self, probability: float) -> Drawing:
         """Lock every junction whose routing is at least this probable."""
-        sure = [j.index for j in self.junctions if not j.locked and 1 - j.doubt >= probability]
-        return self._with_locked(sure, True)
+        free = ~self.routing.locked[: len(self.doubts)]
+        return self.lock_all(np.flatnonzero(free & (1 - self.doubts >= probability)).tolist())
+
+    def lock_all(self, junctions: Iterable[int]) -> Drawing:
+        """Keep these junctions and corners as they are."""
+        return self._with_locked(junctions, True)
 
     def with_routing(self, partner: Array, locked: Array) -> Drawing:
         """The drawing as it was when its routing was this, for what stores only that.

@@ -28,6 +28,7 @@ _VERBS = (
     "junctions.lift_bias",
     "junctions.lock",
     "junctions.accept",
+    "junctions.accept_inside",
     "junctions.ask_again",
     "junctions.go_to_junction",
     "junctions.preview",

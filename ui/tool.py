@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import bpy
 
+from ..operators.junctions.accept_inside import INVOLUTE_OT_lasso_accept
 from ..operators.junctions.choose import INVOLUTE_OT_choose
 from ..operators.junctions.cut import INVOLUTE_OT_swipe_cut
 from ..operators.junctions.drag_join import INVOLUTE_OT_drag_join
@@ -16,7 +17,8 @@ class _Junctions:
         "Click a junction to choose among its alternatives\n"
         "Drag along a line to let one stroke follow it; from line to line or end to end to join\n"
         "Ctrl-drag or Alt-drag across strokes to cut them\n"
-        "Ctrl-click or Alt-click a line to end it at its junction"
+        "Ctrl-click or Alt-click a line to end it at its junction\n"
+        "Shift-drag around junctions to accept them; with Ctrl, too, a box"
     )
     bl_icon = "ops.node.add_reroute"
     bl_keymap = (
@@ -34,6 +36,16 @@ class _Junctions:
                 None,
             )
             for key in ("ctrl", "alt")
+        ),
+        (
+            INVOLUTE_OT_lasso_accept.bl_idname,
+            {"type": "LEFTMOUSE", "value": "PRESS", "shift": True},
+            None,
+        ),
+        (
+            INVOLUTE_OT_lasso_accept.bl_idname,
+            {"type": "LEFTMOUSE", "value": "PRESS", "shift": True, "ctrl": True},
+            {"properties": [("box", True)]},
         ),
     )
 

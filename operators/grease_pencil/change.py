@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from ...engine import Drawing
+    from ...engine import Drawing, Stroke
 
 Array = np.ndarray
 
@@ -37,10 +37,29 @@ def again(base: Drawing, drawing: Drawing) -> Drawing:
     In a sequence strokes start and run as on the frame before; one that was rerouted and is back as
     it was traced gets that start and direction back, too.
     """
-    steps = drawing.edits.steps if drawing.edits else ()
-    routing = drawing.routing
-    again = base.with_edits(steps).with_routing(routing.partner, routing.locked)
-    return replace(again, routing=routing, settings=drawing.settings)
+    kept = {int(s.branches.min()) >> 1: s for s in base.strokes if len(s.branches)}
+    touched: set[int] = set()
+    if drawing.edits:
+        from ...engine.graph.editing import edited
+
+        touched = edited(base.graph, base.routing, drawing.edits.steps)[2]
+    partner = drawing.routing.partner
+    strokes = []
+    for stroke in drawing.strokes:
+        first = int(stroke.branches.min()) >> 1 if len(stroke.branches) else -1
+        there = kept.get(first, stroke)
+        if there is not stroke and _as_traced(base, there, partner, touched):
+            stroke = there
+        strokes.append(stroke)
+    return replace(drawing, strokes=tuple(strokes))
+
+
+def _as_traced(base: Drawing, stroke: Stroke, partner: Array, touched: set[int]) -> bool:
+    """Is one stroke of the base in force again, all along?"""
+    if not touched.isdisjoint((stroke.branches >> 1).tolist()):
+        return False
+    tips = np.concatenate([stroke.branches, stroke.branches ^ 1])
+    return bool((partner[tips] == base.routing.partner[tips]).all())
 
 
 def packed(base: Drawing, drawing: Drawing, *, differs: bool) -> bytes:

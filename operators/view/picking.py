@@ -59,6 +59,17 @@ def nearest(places: Array, mouse: tuple[float, float], radius: float) -> int:
     return best if distance[best] <= radius else -1
 
 
+def inside(places: Array, outline: Array) -> Array:
+    """(N,) bool: which places lie inside a closed outline (M, 2), by the even-odd rule."""
+    places = np.asarray(places, np.float64).reshape(-1, 2)
+    a, b = outline, np.roll(outline, -1, axis=0)
+    x, y = places[:, :1], places[:, 1:]
+    passes = (a[:, 1] > y) != (b[:, 1] > y)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        at = a[:, 0] + (y - a[:, 1]) / (b[:, 1] - a[:, 1]) * (b[:, 0] - a[:, 0])
+        return (passes & (x < at)).sum(1) % 2 == 1
+
+
 def distance_to_line(line: Array, mouse: tuple[float, float]) -> float:
     """How far the mouse is from a polyline; infinite where none of it can be seen."""
     line = line[np.isfinite(line).all(axis=1)]

@@ -120,7 +120,7 @@ class Shown:
         index = self.view.junction
         if self.view.key != self.trace.key or not 0 <= index < len(self.table):
             return None
-        return self.trace.drawing.junctions[index]
+        return self.trace.drawing.place(index)
 
     @property
     def has_corners(self) -> bool:

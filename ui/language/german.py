@@ -539,11 +539,6 @@ TEXTS = {
     ),
     "No junction is doubtful any more.": "Keine Kreuzung ist mehr zweifelhaft.",
     "A review needs a 3D viewport.": "Das Durchgehen braucht einen 3D-Viewport.",
-    "{number} of {all}, {long} long strokes left: digit or click decides, Enter accepts, "
-    "Space skips, Backspace goes back, Esc leaves": (
-        "{number} von {all}, noch {long} lange Striche: Ziffer oder Klick entscheidet, Enter nimmt "
-        "an, Leertaste überspringt, Rücktaste geht zurück, Esc beendet"
-    ),
     "Cost": "Kosten",
     "Doubt times the length of stroke that another answer changes": (
         "Zweifel mal Länge der Striche, die eine andere Antwort ändert"
@@ -595,17 +590,6 @@ TEXTS = {
         "Die Ebene {name!r} ist gesperrt; zum Neuverbinden entsperren."
     ),
     # gestures
-    "Click a junction to choose among its alternatives\n"
-    "Drag along a line to let one stroke follow it; from line to line or end to end to "
-    "join\n"
-    "Ctrl-drag or Alt-drag across strokes to cut them\n"
-    "Ctrl-click or Alt-click a line to end it at its junction": (
-        "Eine Kreuzung anklicken, um unter ihren Möglichkeiten zu wählen\n"
-        "An einer Linie entlang ziehen, damit ein Strich ihr folgt; von Linie zu Linie oder von "
-        "Ende zu Ende, um zu verbinden\n"
-        "Mit Strg oder Alt quer über Striche ziehen, um sie zu zerschneiden\n"
-        "Eine Linie mit Strg oder Alt anklicken, um sie an ihrer Kreuzung enden zu lassen"
-    ),
     "Cut Strokes": "Striche zerschneiden",
     "Cut the strokes that a path crosses there; the cuts are decisions of yours and stay": (
         "Die Striche zerschneiden, wo ein Weg sie kreuzt; die Schnitte sind deine Entscheidungen "
@@ -654,5 +638,37 @@ TEXTS = {
     "Swipe across strokes to cut them there; a click on a line ends it at its junction": (
         "Quer über Striche wischen, um sie dort zu zerschneiden; ein Klick auf eine Linie lässt "
         "sie an ihrer Kreuzung enden"
+    ),
+    "Click a junction to choose among its alternatives\n"
+    "Drag along a line to let one stroke follow it; from line to line or end to end to "
+    "join\n"
+    "Ctrl-drag or Alt-drag across strokes to cut them\n"
+    "Ctrl-click or Alt-click a line to end it at its junction\n"
+    "Shift-drag around junctions to accept them; with Ctrl, too, a box": (
+        "Eine Kreuzung anklicken, um unter ihren Möglichkeiten zu wählen\n"
+        "An einer Linie entlang ziehen, damit ein Strich ihr folgt; von Linie zu Linie oder von "
+        "Ende zu Ende, um zu verbinden\n"
+        "Mit Strg oder Alt quer über Striche ziehen, um sie zu zerschneiden\n"
+        "Eine Linie mit Strg oder Alt anklicken, um sie an ihrer Kreuzung enden zu lassen\n"
+        "Mit Umschalt um Kreuzungen herum ziehen, um sie anzunehmen; mit Strg dazu einen Kasten"
+    ),
+    "Accept Inside": "Innerhalb annehmen",
+    "Box": "Kasten",
+    "Draw a box instead": "Stattdessen einen Kasten ziehen",
+    "Draw around junctions to accept them as they are": (
+        "Kreuzungen umfahren, um sie anzunehmen, wie sie sind"
+    ),
+    "Lasso to Accept": "Lasso zum Annehmen",
+    "Lock every junction inside an outline as it is": (
+        "Jede Kreuzung innerhalb eines Umrisses sperren, wie sie ist"
+    ),
+    "No open junction lies inside.": "Darin liegt keine offene Kreuzung.",
+    "The outline, in pixels of the scan": "Der Umriss, in Pixeln des Scans",
+    "{number} of {all}, {long} long strokes left, {settled} settled by your decisions: digit or "
+    "click decides, Enter accepts, S decides all that are alike, Space skips, Backspace goes "
+    "back, Esc leaves": (
+        "{number} von {all}, {long} lange Striche übrig, {settled} durch deine Entscheidungen "
+        "erledigt: Ziffer oder Klick entscheidet, Enter nimmt an, S entscheidet alle gleichen, "
+        "Leertaste überspringt, Rücktaste geht zurück, Esc beendet"
     ),
 }
