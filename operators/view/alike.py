@@ -20,7 +20,7 @@ Array = np.ndarray
 
 _TURN = np.radians(15.0)  # directions that differ by less are the same to the eye
 _WIDER = 1.5  # times as wide; lines of one pen vary less
-_OFFERED = 0.02  # probability; what the router thinks impossible is not done without being asked
+_UNTURNED = 0.1  # of the angle by which a junction is turned, so that an unturned one comes first
 _REACH = 15.0  # px; over which a direction is measured
 
 
@@ -59,7 +59,7 @@ def alike(
                 if a < b
             )
         )
-        if any(w.pairs == ways and w.probability >= _OFFERED for w in other.alternatives):
+        if any(way.pairs == ways for way in other.alternatives):
             found.append((number, ways))
     return found
 
@@ -83,17 +83,20 @@ def _matched(angles: Array, widths: Array, others: Array, their_widths: Array) -
     """Which line of the other junction stands for each of this one; None = it looks otherwise."""
     count = len(angles)
     mine = np.argsort(angles)
-    best, chosen = _TURN, None
+    best, chosen = np.inf, None
     for mirrored in (1, -1):
         theirs = np.argsort(mirrored * others)
         for shift in range(count):
             turned = np.roll(theirs, shift)
             away = np.angle(np.exp(1j * (mirrored * others[turned] - angles[mine])))
-            away = np.angle(np.exp(1j * (away - np.angle(np.exp(1j * away).mean()))))
+            turn = float(np.angle(np.exp(1j * away).mean()))
+            away = np.angle(np.exp(1j * (away - turn)))
             ratio = their_widths[turned] / np.maximum(widths[mine], 1e-6)
             wide = (np.maximum(ratio, 1 / np.maximum(ratio, 1e-6)) <= _WIDER).all()
-            if wide and np.abs(away).max() < best:
-                best = float(np.abs(away).max())
+            worst = float(np.abs(away).max())
+            cost = worst + _UNTURNED * abs(turn) + _UNTURNED * (mirrored < 0)
+            if wide and worst <= _TURN and cost < best:
+                best = cost
                 chosen = np.empty(count, int)
                 chosen[mine] = turned
     return None if chosen is None else chosen.tolist()
