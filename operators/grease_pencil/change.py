@@ -12,6 +12,7 @@ from __future__ import annotations
 import zlib
 from dataclasses import replace
 from typing import TYPE_CHECKING
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
@@ -22,6 +23,7 @@ Array = np.ndarray
 
 _MORE = b"+"  # a zlib stream never begins so
 _MOST_STEPS = 100_000
+_strokes: WeakKeyDictionary[Drawing, dict[int, Stroke]] = WeakKeyDictionary()
 _HEAD = 12  # bytes: how many steps, how many scores, the balance of pen lifts
 
 
@@ -37,21 +39,28 @@ def again(base: Drawing, drawing: Drawing) -> Drawing:
     In a sequence strokes start and run as on the frame before; one that was rerouted and is back as
     it was traced gets that start and direction back, too.
     """
-    kept = {int(s.branches.min()) >> 1: s for s in base.strokes if len(s.branches)}
+    kept = _by_lowest_branch(base)
     touched: set[int] = set()
     if drawing.edits:
         from ...engine.graph.editing import edited
 
         touched = edited(base.graph, base.routing, drawing.edits.steps)[2]
     partner = drawing.routing.partner
+    same = {id(stroke) for stroke in base.strokes}
     strokes = []
     for stroke in drawing.strokes:
-        first = int(stroke.branches.min()) >> 1 if len(stroke.branches) else -1
-        there = kept.get(first, stroke)
-        if there is not stroke and _as_traced(base, there, partner, touched):
-            stroke = there
+        if id(stroke) not in same and len(stroke.branches):
+            there = kept.get(int(stroke.branches.min()) >> 1, stroke)
+            if there is not stroke and _as_traced(base, there, partner, touched):
+                stroke = there
         strokes.append(stroke)
     return replace(drawing, strokes=tuple(strokes))
+
+
+def _by_lowest_branch(base: Drawing) -> dict[int, Stroke]:
+    if base not in _strokes:
+        _strokes[base] = {int(s.branches.min()) >> 1: s for s in base.strokes if len(s.branches)}
+    return _strokes[base]
 
 
 def _as_traced(base: Drawing, stroke: Stroke, partner: Array, touched: set[int]) -> bool:

@@ -136,7 +136,7 @@ def base_of(entry: Any) -> Drawing:
             raise ValueError("base")
         inflate = zlib.decompressobj()
         drawing = drawing_json.read(inflate.decompress(blob, _MOST_TEXT).decode("utf-8"))
-        remember(base, drawing)
+    remember(base, drawing)  # each decision needs it, and brings a drawing of its own
     return drawing
 
 
