@@ -1,5 +1,8 @@
 """Builds the extension: `python package.py`, one zip per platform with its two wheels.
 
+`python package.py --repository FOLDER` makes a folder of them that Blender installs and updates
+from: any web server can hand it out.
+
 The wheels come from `pip download`, pinned by the hashes in wheels.txt, into the ignored folder
 wheels/. The same sources give the same bytes. Standard library only, so that it also runs by path.
 """
@@ -72,13 +75,34 @@ def fetch(platform: str, names: list[str]) -> None:
 
 def validate(path: Path) -> None:
     """Let Blender's own checker judge the zip; needs the `bpy` package, which brings it."""
+    _blender_extension("validate", str(path))
+
+
+def list_repository(folder: Path) -> None:
+    """Have Blender list the newest zips of a folder: index.json, and index.html to drop them from.
+
+    What is not of this version goes to the folder `older` in it, out of the list: of two versions
+    Blender takes any. Needs the `bpy` package.
+    """
+    parsed = tomllib.loads((ROOT / "blender_manifest.toml").read_text("utf-8"))
+    older = folder / "older"
+    for path in folder.glob(f"{parsed['id']}-*.zip"):
+        if not path.name.startswith(f"{parsed['id']}-{parsed['version']}-"):
+            older.mkdir(exist_ok=True)
+            path.replace(older / path.name)
+    _blender_extension("server-generate", f"--repo-dir={folder}", "--html")
+
+
+def _blender_extension(*words: str) -> None:
+    """What `blender --command extension` does, by the script that the `bpy` package brings."""
     spec = importlib.util.find_spec("bpy")
     if spec is None or not spec.submodule_search_locations:
-        raise SystemExit("Validating needs bpy: install the extra 'blender', or use --no-validate.")
+        raise SystemExit("That needs bpy: install the extra 'blender', or use --no-validate.")
     found = Path(spec.submodule_search_locations[0]).glob(
         "*/scripts/addons_core/bl_pkg/cli/blender_ext.py"
     )
-    subprocess.run([sys.executable, str(next(found)), "validate", str(path)], check=True)
+    if subprocess.run([sys.executable, str(next(found)), *words]).returncode:
+        raise SystemExit(f"Blender's {words[0]} failed; see above.")
 
 
 def host_platform() -> str:
@@ -101,14 +125,23 @@ def main(argv: list[str] | None = None) -> int:
         metavar="NAME",
         help="default: all of " + ", ".join(PLATFORMS) + "; host = this machine's",
     )
+    parser.add_argument(
+        "--repository",
+        type=Path,
+        metavar="FOLDER",
+        help="put the zips there instead, and list them so that Blender installs from it",
+    )
     parser.add_argument("--no-validate", action="store_true", help="don't run Blender's checker")
     options = parser.parse_args(argv)
+    output = options.repository or options.output
     for name in options.platform:
-        path = build(host_platform() if name == "host" else name, options.output)
+        path = build(host_platform() if name == "host" else name, output)
         if not options.no_validate:
             validate(path)
         digest = hashlib.sha256(path.read_bytes()).hexdigest()
         print(f"{path}  {path.stat().st_size / 1e6:.1f} MB  sha256 {digest}")
+    if options.repository:
+        list_repository(output)
     return 0
 
 

@@ -19,7 +19,7 @@ from ..engine.errors import InvoluteError
 from ..engine.formats import format_of
 from ..engine.formats.whole_file import remove_leftovers, whole_files
 from ..engine.settings import Settings
-from . import machine, receipts
+from . import machine, receipts, stopping
 from .inputs import Inputs
 from .receipts import Standing
 
@@ -107,6 +107,7 @@ def run(
                 return Outcome(task, {}, inputs.refusal(output))
         return _left_to_do(task, over) if resume else _Todo(task)
 
+    stopping.check()
     clear_up()
     jobs = min(jobs or default_jobs(), len(tasks))
     try:
@@ -130,6 +131,7 @@ def _here(
     begin: Callable[[Task], None] | None,
 ) -> Iterator[Outcome]:
     for task in tasks:
+        stopping.check()
         if begin:
             begin(task)
         todo = before(task)
@@ -156,6 +158,7 @@ def _elsewhere(
     try:
         futures = [executor.submit(trace, task) for task in tasks]
         for future in as_completed(futures):
+            stopping.check()
             yield future.result()
     finally:
         workers.stop()

@@ -173,7 +173,8 @@ def _comb(lines: _Lines, free: Array, side: int, known: float = 0.0) -> tuple[Ar
     for ahead in range(1, _NEXT + 1):
         for a, b in zip(numbers, numbers[ahead:], strict=False):
             pitch = place[b] - place[a]
-            if known and abs(pitch - known) > _SAME_PITCH * known:
+            crossing = pitch <= 0  # two lines that cross have one place
+            if crossing or (known and abs(pitch - known) > _SAME_PITCH * known):
                 continue
             steps = (place - place[a]) / pitch
             tooth = free & (np.abs(steps - np.round(steps)) < _EVEN)
@@ -191,7 +192,7 @@ def _evenly_spaced(lines: _Lines, side: int) -> Array:
     if len(lines.at) < _FEWEST:
         return none
     gaps = np.diff(lines.at + np.median(lines.stray, 1))
-    steps = gaps / np.median(gaps)
+    steps = gaps / max(float(np.median(gaps)), 1e-6)
     even = (np.abs(steps - np.round(steps)) < _EVEN) & (np.round(steps) >= 1)
     rule = np.append(even, False) | np.insert(even, 0, False)
     enough = rule.sum() >= _FEWEST and even.mean() >= _MOST_EVEN

@@ -243,6 +243,33 @@ def test_told_to_end_it_leaves_nothing(number, wait, tmp_path):
         assert Drawing.load(path).strokes
 
 
+@pytest.mark.skipif(not Path("/proc/self/maps").exists(), reason="Linux tells what is loaded")
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("wait", [0.0, 0.2])
+def test_told_to_end_while_blender_loads_it_ends(number, wait, tmp_path):
+    """Blender prints what is raised while it loads, and goes on."""
+    pytest.importorskip("bpy")
+    for k in range(6):
+        page(tmp_path / "in" / f"{k}.png", 200)
+    out = tmp_path / "out" / "all.blend"
+    out.parent.mkdir()
+    process = subprocess.Popen(
+        [*COMMAND, tmp_path / "in", "-o", out, "--sequence", "--parts", tmp_path / "parts"],
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        preexec_fn=lambda: signal.signal(number, signal.default_int_handler),
+    )
+    loaded = Path(f"/proc/{process.pid}/maps")
+    while process.poll() is None and "/bpy/" not in loaded.read_text():
+        time.sleep(0.01)
+    time.sleep(wait)
+    process.send_signal(number)
+    said = process.communicate(timeout=60)[1]
+    assert process.returncode == cli.STOPPED
+    assert said.endswith(b"nothing is half-written.\n")
+    assert not list(out.parent.iterdir())
+
+
 def test_folders_of_killed_runs_are_cleared_away(tmp_path, monkeypatch):
     monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
     dead = subprocess.Popen([sys.executable, "-c", ""])
