@@ -27,13 +27,17 @@ KEPT = 6  # alternatives a person would look at
 
 
 def ranked_alternatives(
-    graph: PlanarGraph, pair_score: Array, keep: Mapping[int, tuple[Pair, ...]] | None = None
+    graph: PlanarGraph,
+    pair_score: Array,
+    keep: Mapping[int, tuple[Pair, ...]] | None = None,
+    only: Array | None = None,
 ) -> tuple[tuple[Alternative, ...], ...]:
     """The best ways to route each junction and each corner, best first.
 
     Args:
         pair_score: (K,) log-odds of joining, in the order of `candidate_pairs`.
         keep: number of a place -> pairs that must be in the list, however improbable.
+        only: numbers of the places that are wanted; the others get an empty list. None = all.
 
     Returns:
         For each vertex in graph.places order up to `KEPT` alternatives (one more if the kept
@@ -43,6 +47,11 @@ def ranked_alternatives(
     starts = pair_starts(graph)
     found: list[tuple[Alternative, ...]] = [()] * len(graph.places)
     for junctions, halves in by_degree(graph):
+        if only is not None:
+            wanted = np.isin(junctions, only)
+            junctions, halves = junctions[wanted], halves[wanted]
+        if not len(junctions):
+            continue
         degree = halves.shape[1]
         rows = starts[junctions][:, None] + np.arange(degree * (degree - 1) // 2)
         scores = np.asarray(pair_score, np.float64)[rows]
