@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, NoReturn
 
 from ..engine.formats import FORMATS, Format, either
 from ..engine.settings import ABOUT, DEFAULTS
@@ -13,14 +13,21 @@ from .progress_display import QUIET, USUAL, VERBOSE
 from .setting_options import option
 
 
+class _Parser(argparse.ArgumentParser):
+    """Says in one sentence what is wrong, without all the options there are."""
+
+    def error(self, message: str) -> NoReturn:
+        said = " ".join((message[:1].upper() + message[1:]).splitlines())
+        self.exit(2, f"{self.prog}: {said}; {self.prog} --help tells what can be asked.\n")
+
+
 def parser(formats: Sequence[Format] = FORMATS) -> argparse.ArgumentParser:
     """The parser of `involute` for these formats of drawings."""
-    made = argparse.ArgumentParser(
-        prog="involute", description="Turn scanned line drawings into editable strokes."
-    )
+    made = _Parser(prog="involute", description="Turn scanned line drawings into editable strokes.")
     commands = made.add_subparsers(dest="command", required=True, metavar="COMMAND")
     _add_trace(commands, formats)
     _add_farm_job(commands)
+    _add_flamenco(commands)
     _add_inspect(commands)
     _add_evaluate(commands)
     return made
@@ -48,7 +55,9 @@ def _add_trace(commands: Any, formats: Sequence[Format]) -> None:
         help=f"formats for a folder, such as svg,json (default: {formats[0].name}); "
         + "; ".join(f"{f.name}: {f.about}" for f in formats),
     )
-    trace.add_argument("--report", metavar="FILE", help="write times and counts as JSON")
+    trace.add_argument(
+        "--report", type=_named, metavar="FILE", help="write times and counts as JSON"
+    )
     trace.add_argument("--overwrite", action="store_true", help="replace outputs that exist")
     trace.add_argument(
         "--jobs", type=_count, default=1, metavar="N", help="processes at once; 0 = one per core"
@@ -106,6 +115,16 @@ def _add_farm_job(commands: Any) -> None:
     _add_settings(job)
 
 
+def _add_flamenco(commands: Any) -> None:
+    flamenco = commands.add_parser(
+        "flamenco",
+        help="write the job type for Flamenco",
+        description="Put the job type 'Involute: Trace Drawings' into a Flamenco Manager's folder "
+        "`scripts`. After a restart of the Manager it is in Blender's Flamenco panel.",
+    )
+    flamenco.add_argument("folder", metavar="DIR", help="the folder `scripts` beside the Manager")
+
+
 def _add_inspect(commands: Any) -> None:
     inspect = commands.add_parser(
         "inspect",
@@ -113,7 +132,11 @@ def _add_inspect(commands: Any) -> None:
         description="Print the size, strokes, widths and junctions of a drawing (.json, .svg), or "
         "what would be traced in an image.",
     )
-    inspect.add_argument("file", metavar="FILE", help="a drawing or an image")
+    what = inspect.add_mutually_exclusive_group(required=True)
+    what.add_argument("file", metavar="FILE", nargs="?", help="a drawing or an image")
+    what.add_argument(
+        "--runtime", action="store_true", help="say what runs the networks here, and how fast"
+    )
 
 
 def _add_evaluate(commands: Any) -> None:
@@ -163,3 +186,9 @@ def _count(text: str) -> int:
     if not text.isdecimal() or len(text) > 9:
         raise argparse.ArgumentTypeError(f"{text[:40]!r} is not a number of that kind")
     return int(text)
+
+
+def _named(text: str) -> str:
+    if not text:
+        raise argparse.ArgumentTypeError("a file without a name can't be written")
+    return text

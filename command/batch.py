@@ -16,10 +16,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..engine.errors import InvoluteError
-from ..engine.formats import FORMATS
+from ..engine.formats import format_of
 from ..engine.formats.whole_file import remove_leftovers, whole_files
 from ..engine.settings import Settings
-from . import machine, receipts
+from . import machine, receipts, stopping
 from .inputs import Inputs
 from .receipts import Standing
 
@@ -27,12 +27,11 @@ if TYPE_CHECKING:
     from ..engine.drawing import Drawing
 
 _MEMORY_PER_WORKER = 1.5e9  # bytes, for a page of A4 at 300 dpi with room to spare
-_KINDS = {kind.suffix: kind for kind in FORMATS}
 
 
 @dataclass(frozen=True)
 class Task:
-    """One image to trace into one or more files; the suffix of each says its format.
+    """One image to trace into one or more files; how the name of each ends says its format.
 
     receipt: where it is noted what was made; "" = beside the first output.
     """
@@ -108,6 +107,7 @@ def run(
                 return Outcome(task, {}, inputs.refusal(output))
         return _left_to_do(task, over) if resume else _Todo(task)
 
+    stopping.check()
     clear_up()
     jobs = min(jobs or default_jobs(), len(tasks))
     try:
@@ -131,6 +131,7 @@ def _here(
     begin: Callable[[Task], None] | None,
 ) -> Iterator[Outcome]:
     for task in tasks:
+        stopping.check()
         if begin:
             begin(task)
         todo = before(task)
@@ -157,6 +158,7 @@ def _elsewhere(
     try:
         futures = [executor.submit(trace, task) for task in tasks]
         for future in as_completed(futures):
+            stopping.check()
             yield future.result()
     finally:
         workers.stop()
@@ -187,8 +189,7 @@ def _left_to_do(task: Task, over: Collection[Standing]) -> _Todo | Outcome:
 
 
 def _standing(output: str, receipt: receipts.Receipt, key: str) -> Standing:
-    place = Path(output)
-    return receipts.standing(place, _KINDS[place.suffix.lower()], receipt, key)
+    return receipts.standing(Path(output), format_of(output), receipt, key)
 
 
 def foreign(output: str) -> str:
@@ -236,7 +237,7 @@ def _write(drawing: Drawing, task: Task, key: str, report: Mapping[str, Any]) ->
 
     with whole_files(outputs, note) as parts:
         for output, part in zip(outputs, parts, strict=True):
-            _KINDS[output.suffix.lower()].write(drawing, part)
+            format_of(output).write(drawing, part)
 
 
 def summary(drawing: Drawing) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""The command line: `involute trace`, `inspect`, `evaluate` and `farm-job`.
+"""The command line: `involute trace`, `inspect`, `evaluate`, `farm-job` and `flamenco`.
 
 Thin over the engine: what can be asked is said in `arguments`, how it is done in a module for each
 command. What the engine may not import (Blender for .blend, the metrics of the benchmark) is handed
@@ -10,18 +10,15 @@ from __future__ import annotations
 import argparse
 import json
 import os
-import signal
 import sys
-import threading
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
-from types import FrameType
 
 from ..engine.errors import InvoluteError
 from ..engine.formats import FORMATS, Format
 from ..engine.settings import ABOUT, Settings
-from . import batch, sequence_command, trace_command
+from . import batch, sequence_command, stopping, trace_command
 from .arguments import parser
 from .progress_display import ProgressDisplay, say
 from .trace_command import UsageError
@@ -48,7 +45,7 @@ def main(
     """
     _open_streams()
     try:
-        with _signals_stop():
+        with stopping.by_signals():
             code = _run(argv, (*FORMATS, *formats), evaluate)
             if sys.stdout is not None:
                 sys.stdout.flush()
@@ -75,10 +72,15 @@ def _run(argv: Sequence[str] | None, formats: Sequence[Format], evaluate: Evalua
         return _trace(options, formats)
     if options.command == "farm-job":
         print(sequence_command.write_farm_job(options, settings_of(options)))
+    elif options.command == "flamenco":
+        from .flamenco import write_job_type
+
+        print(write_job_type(Path(options.folder)))
     elif options.command == "inspect":
         from . import inspect_command
 
-        print("\n".join(inspect_command.about(Path(options.file))))
+        lines = inspect_command.about_runtimes() if options.runtime else None
+        print("\n".join(lines or inspect_command.about(Path(options.file))))
     else:
         _evaluate(options, evaluate)
     return DONE
@@ -169,26 +171,3 @@ def _open_streams() -> None:
     for stream in (sys.stdout, sys.stderr):
         if reconfigure := getattr(stream, "reconfigure", None):
             reconfigure(errors="backslashreplace")  # names of files need not be text
-
-
-@contextmanager
-def _signals_stop() -> Iterator[None]:
-    """Being told to end is like Ctrl-C: what was begun is cleared away."""
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-
-    def stop(number: int, frame: FrameType | None) -> None:
-        raise KeyboardInterrupt
-
-    names = ("SIGINT", "SIGTERM", "SIGHUP")
-    numbers = [getattr(signal, name) for name in names if hasattr(signal, name)]
-    before = {number: signal.getsignal(number) for number in numbers}
-    try:
-        for number in numbers:
-            if before[number] is not signal.SIG_IGN:  # as under nohup
-                signal.signal(number, stop)
-        yield
-    finally:
-        for number, handler in before.items():
-            signal.signal(number, handler)

@@ -11,7 +11,7 @@ from hashlib import blake2b
 from pathlib import Path
 
 from ..engine.errors import InvoluteError
-from ..engine.formats import Format, either
+from ..engine.formats import Format, either, format_of
 
 _LONGEST = 240  # bytes of a title; 255 with suffix, and room for its receipt
 
@@ -52,13 +52,14 @@ def target(output: str, chosen: str | None, formats: Sequence[Format]) -> Target
         InvoluteError: they don't fit together.
     """
     path = Path(output)
-    suffix = path.suffix.lower()
-    known = {f.name: f for f in formats}
-    if suffix.lstrip(".") in known and not path.is_dir():
+    kind = format_of(path, formats)
+    if kind and not path.is_dir():
         if chosen:
             raise InvoluteError("Give --format only with a folder as output.")
-        return Target(path, (known[suffix.lstrip(".")],), True)
-    if suffix and not path.is_dir() and not chosen:
+        kind.check()
+        return Target(path, (kind,), True)
+    known = {f.name: f for f in formats}
+    if path.suffix and not path.is_dir() and not chosen:
         raise InvoluteError(
             f"Can't write {path.name}; choose a name that ends in "
             f"{either(f.suffix for f in formats)}, or a folder."
@@ -67,6 +68,7 @@ def target(output: str, chosen: str | None, formats: Sequence[Format]) -> Target
     for name in names:
         if name not in known:
             raise InvoluteError(f"There is no format {name!r}; choose from {', '.join(known)}.")
+        known[name].check()
     return Target(path, tuple(known[name] for name in dict.fromkeys(names)), False)
 
 
@@ -90,9 +92,9 @@ def pages(sources: Sequence[tuple[Path, int]], target: Target) -> list[PlannedPa
             "give a folder as output, or a .blend."
         )
     if target.is_file and not target.shared:
-        named = [[target.path.stem]] * len(sources)
+        named = [[target.formats[0].stem(target.path)]] * len(sources)
     else:
-        named = [_names(path) for path, _ in sources]
+        named = [_names(path, target.formats) for path, _ in sources]
     folder = target.path.parent if target.is_file else target.path
     found = []
     for (path, _), titles in zip(sources, _distinct(named, sources), strict=True):
@@ -129,13 +131,15 @@ def _distinct(
             level[index] += clashes
 
 
-def _names(path: Path) -> list[str]:
+def _names(path: Path, formats: Sequence[Format]) -> list[str]:
     """What the drawings of an image may be called, the simplest first."""
     stem, suffix = path.stem, path.suffix.lstrip(".")
     plain = [f"{path.parent.name}/{path.name}", str(path.absolute())]
     marks = [blake2b(os.fsencode(text), digest_size=3).hexdigest() for text in plain]
     with_suffix = f"{stem}-{suffix}" if suffix else stem
-    return [stem, with_suffix, *(f"{with_suffix}-{mark}" for mark in marks)]
+    names = [stem, with_suffix, *(f"{with_suffix}-{mark}" for mark in marks)]
+    # page.plot.png may not become page.plot.svg, which is another format.
+    return names[any(format_of(stem + f.suffix) not in (f, None) for f in formats) :]
 
 
 def _titles(name: str, count: int) -> list[str]:

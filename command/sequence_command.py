@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..engine.errors import InvoluteError
-from ..engine.formats import Format, either
+from ..engine.formats import Format, either, format_of
 from ..engine.formats.whole_file import remove_leftovers, whole_files
 from ..engine.sequence.frames import Frame, FrameRange, number_frames, number_pages
 from ..engine.settings import Settings
@@ -347,7 +347,8 @@ class _Outputs:
         target = self._plan.target
         if target.is_file:
             with self._whole([target.path]) as (part,):
-                target.formats[0].write_sequence(target.path.stem, drawings, part)
+                kind = target.formats[0]
+                kind.write_sequence(kind.stem(target.path), drawings, part)
             return
         planning.make_folder(target.path)
         for frame, drawing in drawings:
@@ -356,7 +357,7 @@ class _Outputs:
             if wanted:
                 with self._whole(list(wanted)) as parts:
                     for (output, kind), part in zip(wanted.items(), parts, strict=True):
-                        kind.save(drawing, output.stem, part)
+                        kind.save(drawing, kind.stem(output), part)
 
     def _whole(self, outputs: list[Path]) -> Any:
         def note(parts: Sequence[Path]) -> None:
@@ -369,11 +370,11 @@ class _Outputs:
         return whole_files(outputs, note)
 
     def _free(self, outputs: Iterable[Path]) -> Iterator[Path]:
-        kinds = {kind.suffix: kind for kind in self._plan.formats}
         over = receipts.ALL if self._plan.overwrite else ()
         for output in outputs:
             receipt = receipts.read(receipts.path_for(output))
-            found = receipts.standing(output, kinds[output.suffix.lower()], receipt, self._key)
+            kind = format_of(output, self._plan.formats)
+            found = receipts.standing(output, kind, receipt, self._key)
             if receipts.to_be_made(found, over):
                 yield output
             elif found is Standing.FOREIGN:

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from ..engine.errors import InvoluteError
-from ..engine.formats import Format
+from ..engine.formats import Format, format_of
 from ..engine.formats.whole_file import whole_file, write_text
 from ..engine.settings import Settings
 from . import batch, inputs, planning, receipts
@@ -159,12 +159,20 @@ def _with_piped(names: Sequence[str], folder: Path) -> list[str]:
 
 
 def _chosen(images: Sequence[Path], frames: str | None) -> Sequence[Path]:
-    """The images whose number is asked for; all when nothing is."""
+    """The images whose number is asked for; all when nothing is.
+
+    Raises:
+        UsageError: it can't be read what is asked for.
+    """
     if frames is None:
         return images
     from ..engine.sequence.frames import FrameRange, number_frames
 
-    return [Path(f.path) for f in number_frames(images, frames=FrameRange.parse(frames))]
+    try:
+        wanted = FrameRange.parse(frames)
+    except InvoluteError as error:
+        raise UsageError(str(error)) from None
+    return [Path(f.path) for f in number_frames(images, frames=wanted)]
 
 
 def _page_count(path: Path) -> int:
@@ -186,7 +194,7 @@ class _Tracing:
     def __init__(self, plan: Plan, options: argparse.Namespace, folder: Path) -> None:
         self._plan, self._options, self._folder = plan, options, folder
         self._over = receipts.ALL if options.overwrite else frozenset[Standing]()
-        self._late = {f.suffix: f for f in plan.target.formats if f.write_many}
+        self._late = [f for f in plan.target.formats if f.write_many]
         self._waiting: dict[PlannedPage, Path] = {}
         self._keys: dict[PlannedPage, str] = {}
         self._outcomes: dict[PlannedPage, batch.Outcome] = {}
@@ -225,7 +233,7 @@ class _Tracing:
                 late = {}  # one file: all of them or none
         tasks = {}
         for page in pages:
-            outputs = [o for o in page.outputs if o.suffix.lower() not in self._late]
+            outputs = [o for o in page.outputs if not format_of(o, self._late)]
             done = late.get(page)
             if done and (done.error or not outputs):
                 self._outcomes[page] = done
@@ -246,10 +254,10 @@ class _Tracing:
         return page.source.name + (f", page {page.page + 1}" if page.page else "")
 
     def _is_late(self, page: PlannedPage) -> bool:
-        return any(output.suffix.lower() in self._late for output in page.outputs)
+        return any(format_of(output, self._late) for output in page.outputs)
 
     def _late_output(self, page: PlannedPage) -> Path:
-        return next(o for o in page.outputs if o.suffix.lower() in self._late)
+        return next(o for o in page.outputs if format_of(o, self._late))
 
     def _receipt(self, page: PlannedPage) -> Path:
         shared = page.name if self._plan.target.shared else ""
@@ -268,7 +276,7 @@ class _Tracing:
         task = batch.Task(str(page.source), (str(output),), self._plan.settings, page.page)
         try:
             key = receipts.fingerprint(task.source, task.page, task.settings)
-            found = receipts.standing(output, self._late[output.suffix.lower()], receipt, key)
+            found = receipts.standing(output, format_of(output, self._late), receipt, key)
         except OSError:
             return None
         self._keys[page] = key
@@ -307,7 +315,7 @@ class _Tracing:
                 files = {output.name: parts[0]}
                 receipts.note(self._receipt(page), self._keys[page], files, report)
 
-        write = self._late[output.suffix.lower()].write_many
+        write = format_of(output, self._late).write_many
         with whole_files([output], note) as (part,):
             write([(page.name, load(self._waiting[page])) for page in members], part)
         if self._options.resume and not self._plan.target.shared:

@@ -15,6 +15,8 @@ from typing import Any
 from .errors import InvoluteError
 
 WHAT, CLEAN, POINTS = GROUPS = ("What the Drawing Is", "How Clean", "How Many Points")
+# The stages of a trace whose results are kept; see `kept_stages`.
+STAGES = ("scan", "solids", "centerline", "graph", "routing", "strokes")
 INKS = ("red", "orange", "yellow", "green", "cyan", "blue", "purple", "pink", "gray")
 
 
@@ -38,11 +40,13 @@ class About:
     off: what `--no-...` does, for a switch that is on by default.
     more: what the manual adds.
     low, high: the least and the most of a number; soft_high: how far a slider goes.
+    stage: the first of `STAGES` that reads it; those before it need not run again when it changes.
     unit: "px" of the input, "pens" (typical widths of a line), "share" (0 to 1), or "".
     """
 
     kind: type
     group: str
+    stage: str
     label: str
     tip: str
     off: str = ""
@@ -95,6 +99,7 @@ class Settings:
         ("clean", "Clean", "Every line is drawn once"),
         ("auto", "Automatic", "Rough where many lines run beside themselves"),
         ("rough", "Rough", "Many pencil strokes say one line: find that line"),
+        stage="strokes",
         group=WHAT,
         label="Drawing",
         tip="Whether every line is drawn once or by many pencil strokes",
@@ -105,6 +110,7 @@ class Settings:
         ("dark", "Dark on Light", "Ink or pencil on paper"),
         ("light", "Light on Dark", "Chalk, blueprints, inverted scans"),
         group=WHAT,
+        stage="scan",
         label="Lines",
         tip="Which side of the picture is ink",
     )
@@ -115,6 +121,7 @@ class Settings:
         soft_high=50.0,
         unit="px",
         group=WHAT,
+        stage="scan",
         label="Pen Width",
         tip="Usual width of a line in pixels of the picture; 0 measures it",
         more="Set it when the page holds a few thin lines beside large black areas",
@@ -122,6 +129,7 @@ class Settings:
     inks: bool = _switch(
         True,
         group=WHAT,
+        stage="strokes",
         label="Ink Colors",
         tip="Give every ink its own layer and material; off draws all lines in black",
         off="make all strokes black instead of the color of their ink",
@@ -130,6 +138,7 @@ class Settings:
     ignore_inks: tuple[str, ...] = _any_of(
         *((name, name.title(), "Don't trace lines of this color") for name in INKS),
         group=WHAT,
+        stage="scan",
         label="Ignore Inks",
         tip="Inks that are not traced, such as a blue construction pencil",
         more="`gray` is pencil under ink",
@@ -137,6 +146,7 @@ class Settings:
     solids: bool = _switch(
         True,
         group=WHAT,
+        stage="solids",
         label="Solid Blacks",
         tip="Turn areas of solid ink into fills instead of tracing them as lines",
         off="trace solid black areas as lines too, instead of making them fills",
@@ -148,6 +158,7 @@ class Settings:
         soft_high=100.0,
         unit="px",
         group=WHAT,
+        stage="solids",
         label="Solid Width",
         tip="Lines wider than this, in pixels of the picture, are solid areas; 0 finds out from "
         "the pen",
@@ -155,6 +166,7 @@ class Settings:
     sheet: bool = _switch(
         True,
         group=WHAT,
+        stage="scan",
         label="Leave Out Surroundings",
         tip="Don't trace what lies beyond the sheet in a photograph: cloth, a desk, a finger",
         off="trace what lies beyond the sheet in a photograph too",
@@ -162,6 +174,7 @@ class Settings:
     rules: bool = _switch(
         True,
         group=WHAT,
+        stage="scan",
         label="Leave Out Rules",
         tip="Don't trace the printed lines of ruled and squared paper",
         off="trace the printed lines of ruled and squared paper too",
@@ -169,6 +182,7 @@ class Settings:
     screentone: bool = _switch(
         True,
         group=WHAT,
+        stage="scan",
         label="Leave Out Screentone",
         tip="Don't trace areas of evenly set dots, such as the tones of a comic",
         off="trace every dot of a screentone",
@@ -176,6 +190,7 @@ class Settings:
     marks: bool = _switch(
         True,
         group=WHAT,
+        stage="scan",
         label="Leave Out Marks",
         tip="Don't trace scan borders, punched holes and registration marks",
         off="trace scan borders, punched holes and registration marks too",
@@ -183,6 +198,7 @@ class Settings:
     regions: bool = _switch(
         False,
         group=WHAT,
+        stage="strokes",
         label="Fill Regions",
         tip="Fill the closed regions between the lines, on a layer below",
         more="White, or the color that is painted there; in Blender and SVG",
@@ -195,6 +211,7 @@ class Settings:
         soft_high=10.0,
         unit="pens",
         group=CLEAN,
+        stage="graph",
         label="Specks",
         tip="Drop lone strokes shorter than this many pen widths",
         more="Strokes that hang on other lines are dropped up to twice that length",
@@ -202,6 +219,7 @@ class Settings:
     dots: bool = _switch(
         True,
         group=CLEAN,
+        stage="graph",
         label="Keep Dots",
         tip="Keep dots of full ink about as wide as the pen, which are no specks",
         off="drop small dots as specks",
@@ -213,6 +231,7 @@ class Settings:
         1.0,
         unit="share",
         group=CLEAN,
+        stage="graph",
         label="Smoothing",
         tip="0 keeps every wobble of the hand, 1 is very smooth",
         more="Corners stay",
@@ -222,6 +241,7 @@ class Settings:
         -1.0,
         1.0,
         group=CLEAN,
+        stage="routing",
         label="Pen Lifts",
         tip="Where strokes end though only two lines meet: -1 nowhere, 0 where it looks as if the "
         "pen was lifted, 1 wherever it may have been",
@@ -233,6 +253,7 @@ class Settings:
         ("classical", "Ridge Filter", "No learning; for very clean lines"),
         ("given", "Picture Is Centerlines", "Thin white lines on black, made elsewhere"),
         group=CLEAN,
+        stage="centerline",
         label="Line Finder",
         tip="What finds the centres of the lines",
     )
@@ -241,6 +262,7 @@ class Settings:
         ("network", "Network", "Looks at the whole neighborhood of the junction"),
         ("geometric", "Geometry", "Looks at direction, curvature and width only"),
         group=CLEAN,
+        stage="routing",
         label="Junctions",
         tip="What decides which lines continue through a junction",
     )
@@ -249,6 +271,7 @@ class Settings:
         ("cpu", "Processor", "Always works"),
         ("gpu", "Graphics Card", "Needs PyTorch in Blender's Python"),
         group=CLEAN,
+        stage="centerline",
         label="Device",
         tip="Where the networks run",
         more="The processor does well",
@@ -258,6 +281,7 @@ class Settings:
         ("solid", "Solid", "Every stroke is opaque"),
         ("drawn", "As Drawn", "As strong as the line on the paper"),
         group=POINTS,
+        stage="strokes",
         label="Opacity",
         tip="How opaque the strokes are",
         more="One value for a stroke, unless the line really fades along it",
@@ -268,12 +292,14 @@ class Settings:
         20.0,
         soft_high=3.0,
         group=POINTS,
+        stage="strokes",
         label="Width Scale",
         tip="Make the strokes this many times as wide as the lines on the paper",
     )
     even_width: bool = _switch(
         False,
         group=POINTS,
+        stage="strokes",
         label="Even Width",
         tip="Give each stroke one width all along, that of its line on average",
     )
@@ -281,6 +307,7 @@ class Settings:
         ("polyline", "Points", "Plain points, for sculpting and drawing over"),
         ("bezier", "Bézier", "Few points with handles"),
         group=POINTS,
+        stage="strokes",
         label="Curves",
         tip="What the strokes are made of",
         more="Curves have less than half the points: those at bends, corners, junctions and where "
@@ -293,6 +320,7 @@ class Settings:
         soft_high=5.0,
         unit="px",
         group=POINTS,
+        stage="strokes",
         label="Tolerance",
         tip="How far a stroke may stray from the traced line, in pixels of the picture; "
         "more gives fewer points",
@@ -316,6 +344,8 @@ ABOUT: dict[str, About] = {
     for setting in fields(Settings)
     if "about" in setting.metadata
 }
+# Of `align`, too, which is nobody's to set.
+STAGE_OF = {name: about.stage for name, about in ABOUT.items()} | {"align": "scan"}
 DEFAULTS: dict[str, Any] = {setting.name: setting.default for setting in fields(Settings)}
 
 

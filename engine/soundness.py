@@ -22,6 +22,7 @@ _FARTHEST = 10.0 * _LARGEST_SIDE  # px from the page's corner
 _THICKEST = float(_LARGEST_SIDE)  # px
 _APART = 0.05  # px between the end of a branch and its vertex, for rounding
 _SCALES = (1e-3, 1e3)  # input pixels per working pixel
+_DPI = (1.0, 100_000.0)  # pixels per inch; microscopes scan at some 25,000
 
 
 class UnsoundError(ValueError):
@@ -37,6 +38,7 @@ def check_drawing(drawing: Drawing) -> None:
     for side in drawing.size:
         _need(1 <= side <= _LARGEST_SIDE, "its size is not that of a page")
     _need(_SCALES[0] <= drawing.scale <= _SCALES[1], "its scale can't be")
+    _need(drawing.dpi is None or _DPI[0] <= drawing.dpi <= _DPI[1], "its dpi can't be")
     for stage, seconds in drawing.seconds.items():
         _need(isinstance(stage, str) and _is_number(seconds), "its seconds are no numbers")
     for number, stroke in enumerate(drawing.strokes):
@@ -187,6 +189,10 @@ def _check_stroke(stroke: Stroke, where: str, runs: bool = True) -> None:
     if stroke.handles is not None:
         _table(stroke.handles, "f", (count, 2, 2), f"the handles of {where}")
         _within(stroke.handles, _FARTHEST, f"the handles of {where}")
+    # A ring may have one anchor, and its length from the handles.
+    places = stroke.points if stroke.handles is None else stroke.handles.reshape(-1, 2)
+    alike = (places == stroke.points[0]).all() and (stroke.points == stroke.points[0]).all()
+    _need(not alike, f"{where} has no length: all its points are one")
 
 
 def _check_walks(drawing: Drawing) -> None:

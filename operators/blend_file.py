@@ -70,14 +70,16 @@ def write_sequence(
 
 def _empty_scene() -> bpy.types.Scene:
     """A fresh scene; preferences stay: this may run inside Blender, with the extension enabled."""
+    from ..command import stopping
     from ..engine import InvoluteError
     from . import system_libraries
 
-    try:
-        import bpy
-    except ImportError as error:
-        raise InvoluteError(system_libraries.cannot_load(error)) from error
-    bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True, load_ui=False)
+    with stopping.held():
+        try:
+            import bpy
+        except ImportError as error:
+            raise InvoluteError(system_libraries.cannot_load(error)) from error
+        bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True, load_ui=False)
     return bpy.context.scene
 
 
@@ -118,10 +120,12 @@ def _as_text(name: str) -> str:
 def _save(path: str | PathLike[str]) -> None:
     import bpy
 
+    from ..command import stopping
+
     target = Path(fspath(path)).absolute()
     target.unlink(missing_ok=True)  # of a file that is there Blender would keep a copy beside it
     try:
-        with _quiet():
+        with _quiet(), stopping.held():
             bpy.ops.wm.save_as_mainfile(
                 filepath=str(target), check_existing=False, copy=True, compress=True
             )

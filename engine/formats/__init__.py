@@ -1,4 +1,4 @@
-"""Drawings on disk, chosen by suffix: SVG, JSON (keeps everything) and a PNG preview.
+"""Drawings on disk, chosen by how the name ends: SVG, JSON (keeps everything), PNG and others.
 
 A format is declared once, as a `Format`: the command line, its help and the manual follow. What the
 engine may not import (Blender) declares its format where it is, and hands it to `command.cli.main`.
@@ -10,6 +10,7 @@ import stat
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from importlib import import_module
+from importlib.util import find_spec
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -27,13 +28,14 @@ _LARGEST = 2**29  # bytes of a file; the drawing of a page of 8192 px has some 2
 class Format:
     """One kind of file for drawings.
 
-    suffix: such as ".svg".
+    suffix: such as ".svg", or ".plot.svg" for one of several kinds of SVG.
     about: what it is, for people; a phrase.
     endings: how a whole file ends, apart from blanks and zeros; one that was cut short does not.
     write: writes one drawing to a path.
     read: makes a drawing of a text and the file's name; None where it can't be read back.
     write_many: writes (name, drawing) pairs to one path; None where a file holds one drawing.
     write_sequence: writes a name and (frame, drawing) pairs, ascending, to one path, or None.
+    needs: the library that writes it, where Involute comes without: (module, how pip calls it).
     """
 
     suffix: str
@@ -43,11 +45,28 @@ class Format:
     read: Callable[[str, str], Drawing] | None = None
     write_many: Callable[[Sequence[tuple[str, Drawing]], Path], None] | None = None
     write_sequence: Callable[[str, Iterable[tuple[int, Drawing]], Path], None] | None = None
+    needs: tuple[str, str] | None = None
 
     @property
     def name(self) -> str:
         """As `--format` takes it: svg."""
         return self.suffix.lstrip(".")
+
+    def stem(self, path: Path) -> str:
+        """The name of a file of this format without the suffix."""
+        return path.name[: -len(self.suffix)]
+
+    def check(self) -> None:
+        """Make sure that the library it needs is there.
+
+        Raises:
+            InvoluteError: it is not.
+        """
+        if self.needs and find_spec(self.needs[0]) is None:
+            raise InvoluteError(
+                f"{self.suffix} needs the library {self.needs[0]}; install Involute with its extra "
+                f"'exchange', or {self.needs[1]} with pip into the Python that runs it."
+            )
 
     def save(self, drawing: Drawing, name: str, path: Path) -> None:
         """Write one drawing, which goes by that name, to a path."""
@@ -87,7 +106,57 @@ FORMATS = (
         endings=(b"IEND\xaeB`\x82",),
         write=_later("png", "write"),
     ),
+    Format(
+        suffix=".outline.svg",
+        about="the shape of each stroke with its true varying width, for Illustrator and Inkscape; "
+        "the center lines on a hidden layer",
+        endings=(b"</svg>",),
+        write=_later("svg_outline", "write"),
+        read=_later("svg", "read"),
+    ),
+    Format(
+        suffix=".plot.svg",
+        about="for pen plotters: few long paths in a short order, no line twice, in mm",
+        endings=(b"</svg>",),
+        write=_later("svg_plot", "write"),
+    ),
+    Format(
+        suffix=".dxf",
+        about="polylines with widths, or splines, in layers by ink, in mm, for CAD programs",
+        endings=(b"EOF",),
+        write=_later("dxf", "write"),
+        needs=("ezdxf", "ezdxf==1.4.5"),
+    ),
+    Format(
+        suffix=".pdf",
+        about="a page in the size of the paper, with true widths and layers; sequences as pages",
+        endings=(b"%%EOF",),
+        write=_later("pdf", "write"),
+        write_sequence=_later("pdf", "write_sequence"),
+        needs=("pypdf", "pypdf==7.1.0"),
+    ),
+    Format(
+        suffix=".lottie.json",
+        about="an animation for the web: a drawing draws itself, a sequence plays",
+        endings=(b"}",),
+        write=_later("lottie", "write"),
+        write_sequence=_later("lottie", "write_sequence"),
+    ),
+    Format(
+        suffix=".pli",
+        about="a vector level of OpenToonz and Tahoma2D: lines with thickness, a style per ink",
+        endings=(b"END",),
+        write=_later("pli", "write"),
+        write_sequence=_later("pli", "write_sequence"),
+    ),
 )
+
+
+def format_of(path: str | PathLike[str], formats: Iterable[Format] = FORMATS) -> Format | None:
+    """The format that a file's name ends with; of .plot.svg and .svg the longer one."""
+    name = Path(path).name.lower()
+    fitting = [f for f in formats if name.endswith(f.suffix) and name != f.suffix]
+    return max(fitting, key=lambda f: len(f.suffix), default=None)
 
 
 def save(drawing: Drawing, path: str | PathLike[str]) -> None:
@@ -99,12 +168,13 @@ def save(drawing: Drawing, path: str | PathLike[str]) -> None:
     from .whole_file import whole_file
 
     path = Path(path)
-    known = {f.suffix: f.write for f in FORMATS if f.write}
-    writer = known.get(path.suffix.lower())
-    if writer is None:
-        raise InvoluteError(f"Can't write {path.name}; choose a name that ends in {either(known)}.")
+    kind = format_of(path)
+    if kind is None or kind.write is None:
+        known = either(f.suffix for f in FORMATS if f.write)
+        raise InvoluteError(f"Can't write {path.name}; choose a name that ends in {known}.")
+    kind.check()
     with whole_file(path) as part:
-        writer(drawing, part)
+        kind.write(drawing, part)
 
 
 def load(path: str | PathLike[str]) -> Drawing:
@@ -114,11 +184,11 @@ def load(path: str | PathLike[str]) -> Drawing:
         InvoluteError: the file can't be read as a drawing.
     """
     path = Path(path)
-    known = {f.suffix: f.read for f in FORMATS if f.read}
-    reader = known.get(path.suffix.lower())
-    if reader is None:
-        raise InvoluteError(f"{path.name} holds no drawing; choose a {either(known)} file.")
-    return reader(read_text(path), path.name)
+    kind = format_of(path)
+    if kind is None or kind.read is None:
+        known = either(f.suffix for f in FORMATS if f.read)
+        raise InvoluteError(f"{path.name} holds no drawing; choose a {known} file.")
+    return kind.read(read_text(path), path.name)
 
 
 def read_text(path: Path) -> str:
@@ -148,4 +218,4 @@ def either(names: Iterable[str]) -> str:
     return f"{', '.join(others)} or {last}" if others else last
 
 
-__all__ = ["FORMATS", "Format", "either", "load", "read_text", "save"]
+__all__ = ["FORMATS", "Format", "either", "format_of", "load", "read_text", "save"]

@@ -1,4 +1,4 @@
-"""Strokes as plain polylines, for formats and pictures that know no Bezier curves."""
+"""Strokes as plain polylines, with widths, for formats and pictures that know no Bezier curves."""
 
 from __future__ import annotations
 
@@ -21,3 +21,15 @@ def outline(stroke: Stroke) -> Array:
     t, u = _T, 1 - _T
     curve = u**3 * a + 3 * u**2 * t * b + 3 * u * t**2 * c + t**3 * d
     return np.concatenate([points[:1], curve.transpose(1, 0, 2).reshape(-1, 2)])
+
+
+def widths_along(stroke: Stroke) -> Array:
+    """The full widths, (N,) float32 px, at the points of `outline`: even between its own points."""
+    widths = stroke.widths
+    if stroke.closed:
+        widths = np.concatenate([widths, widths[:1]])
+    if stroke.handles is None:
+        return widths
+    t, a, b = _T[:, :, 0], widths[:-1], widths[1:]
+    between = (1 - t) * a + t * b
+    return np.concatenate([widths[:1], between.T.reshape(-1)]).astype(np.float32)

@@ -1,7 +1,8 @@
 """Drawings as SVG: one path per stroke in input pixels, areas and regions as filled paths below.
 
-Reading back an SVG of ours gives the same strokes to 1/1000 px; the widths and opacities along a
-stroke, which plain SVG can't say, travel in data attributes. Only JSON keeps the junctions.
+The strokes of an ink are a layer for Inkscape, and a group for everyone else. Reading back an SVG
+of ours gives the same strokes to 1/1000 px; the widths and opacities along a stroke, which plain
+SVG can't say, travel in data attributes. Only JSON keeps the junctions.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ import numpy as np
 
 from ..drawing import Drawing
 from ..errors import InvoluteError
+from ..ink.ink_names import ink_layers
 from ..routing import with_corners
 from ..settings import Settings
 from ..soundness import UnsoundError, check_drawing
@@ -22,12 +24,12 @@ from ..values import Array, PlanarGraph, Routing, Stroke
 from .flatten import outline
 from .whole_file import write_text
 
-# A hidden layer, which Inkscape lists; the transform makes simple readers look at it closely enough
-# to see that it is hidden.
-_PENCIL = (
-    '<g id="pencil" inkscape:groupmode="layer" inkscape:label="Pencil" display="none" '
-    'xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape" transform="translate(0 0)" '
-    'fill="none" stroke-linecap="round" stroke-linejoin="round" opacity="0.4">'
+INKSCAPE = "http://www.inkscape.org/namespaces/inkscape"
+_NO_LINES = {"data-fill", "data-region", "data-outline", "data-pencil"}
+# The transform makes simple readers look at the layer closely enough to see that it is hidden.
+_HIDDEN = (
+    ' id="pencil" display="none" transform="translate(0 0)" opacity="0.4" '
+    'fill="none" stroke-linecap="round" stroke-linejoin="round"'
 )
 _FARTHEST = 1e7  # px from the page's corner
 _COMMAND = re.compile(r"([MLCZ])([^MLCZ]*)")
@@ -40,11 +42,29 @@ def write(drawing: Drawing, path: Path) -> None:
 
 def dumps(drawing: Drawing) -> str:
     """The drawing as the text of an SVG file."""
-    width, height = drawing.size
-    lines = [
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" '
-        f'width="{width}" height="{height}">'
+    lines = [*opening(drawing), *below(drawing)]
+    lines.append('<g id="strokes" fill="none" stroke-linecap="round" stroke-linejoin="round">')
+    lines += center_lines(drawing)
+    return "\n".join([*lines, "</g>", "</svg>", ""])
+
+
+def opening(drawing: Drawing, unit: str = "", scale: float = 1.0) -> list[str]:
+    """The first tag.
+
+    Args:
+        unit: that all numbers are in, "" = pixels of the input, and
+        scale: how many of it make such a pixel.
+    """
+    width, height = (f"{side * scale:.10g}" for side in drawing.size)
+    return [
+        f'<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="{INKSCAPE}" '
+        f'viewBox="0 0 {width} {height}" width="{width}{unit}" height="{height}{unit}">'
     ]
+
+
+def below(drawing: Drawing) -> list[str]:
+    """What lies below the strokes: the coloured regions between them, and the solid areas."""
+    lines = []
     if drawing.settings.regions and drawing.regions:
         colors = drawing.region_colors
         if colors is None or len(colors) != len(drawing.regions):
@@ -53,14 +73,26 @@ def dumps(drawing: Drawing) -> str:
     if drawing.fills:
         lines += _areas("fill", drawing.fills, [(0, 0, 0)] * len(drawing.fills))
     if drawing.pencil:
-        lines.append(_PENCIL)
+        lines.append(layer("Pencil", _HIDDEN))
         lines += [_path(i, stroke, "pencil") for i, stroke in enumerate(drawing.pencil.strokes)]
         lines.append("</g>")
-    lines.append('<g id="strokes" fill="none" stroke-linecap="round" stroke-linejoin="round">')
-    lines += [
-        _path(i, stroke, said_by=drawing.pencil_of(i)) for i, stroke in enumerate(drawing.strokes)
-    ]
-    return "\n".join([*lines, "</g>", "</svg>", ""])
+    return lines
+
+
+def layer(name: str, attributes: str = "") -> str:
+    """The tag that begins a layer of Inkscape."""
+    return f'<g inkscape:groupmode="layer" inkscape:label="{name}"{attributes}>'
+
+
+def center_lines(drawing: Drawing) -> list[str]:
+    """A layer per ink with the paths of its strokes."""
+    strokes, said_by = drawing.strokes, drawing.pencil_of
+    lines = []
+    for ink in ink_layers(strokes):
+        lines.append(layer(ink.name))
+        lines += [_path(number, strokes[number], said_by=said_by(number)) for number in ink.numbers]
+        lines.append("</g>")
+    return lines
 
 
 def read(text: str, name: str = "The file") -> Drawing:
@@ -80,8 +112,8 @@ def read(text: str, name: str = "The file") -> Drawing:
         _, _, width, height = map(_number, root.get("viewBox", "").replace(",", " ").split())
         paths = list(root.iter("{http://www.w3.org/2000/svg}path"))
         fills = tuple(_rings(p.get("d", "")) for p in paths if "data-fill" in p.attrib)
-        apart = {"data-fill", "data-region", "data-pencil"}
-        lines = [p for p in paths if not apart & p.attrib.keys()]
+        lines = [p for p in paths if not _NO_LINES & p.attrib.keys()]
+        lines.sort(key=lambda p: _number(p.get("data-stroke", "0")))  # layers change the order
         strokes = tuple(_stroke(element.attrib, i) for i, element in enumerate(lines))
         size = (round(width), round(height))
         drawing = Drawing(*_unconnected(strokes), strokes, fills, size, Settings())
@@ -114,15 +146,21 @@ def _areas(
 ) -> list[str]:
     """A group of filled paths; an area is the rings of its outline and its holes."""
     paths = [
-        f'<path data-{kind}="{i}" d="{" ".join(_polyline(ring) + " Z" for ring in area)}" '
+        f'<path data-{kind}="{i}" d="{rings(area)}" '
         f'fill="#{bytes(color).hex()}" fill-rule="evenodd"/>'
         for i, (area, color) in enumerate(zip(areas, colors, strict=True))
     ]
-    return [f'<g id="{kind}s" stroke="none">', *paths, "</g>"]
+    mark = f' id="{kind}s" stroke="none"'
+    return [layer({"fill": "Solids"}.get(kind, "Regions"), mark), *paths, "</g>"]
+
+
+def rings(area: Sequence[Array]) -> str:
+    """The path data of closed outlines, (N, 2) each."""
+    return " ".join(polyline(ring) + " Z" for ring in area)
 
 
 def _path(index: int, stroke: Stroke, kind: str = "stroke", said_by: Sequence[int] = ()) -> str:
-    data = _polyline(_repeat_first(stroke)) if stroke.handles is None else _bezier(stroke)
+    data = polyline(_repeat_first(stroke)) if stroke.handles is None else _bezier(stroke)
     opacity, widths = stroke.opacity, stroke.widths
     parts = [
         f'<path data-{kind}="{index}" d="{data}" fill="none"',
@@ -138,7 +176,8 @@ def _path(index: int, stroke: Stroke, kind: str = "stroke", said_by: Sequence[in
     return " ".join([*parts, f'data-widths="{_thousandths(widths)}"/>'])
 
 
-def _polyline(points: Array) -> str:
+def polyline(points: Array) -> str:
+    """The path data of a line (N, 2)."""
     return _numbers("M%.10g,%.10g L" + "%.10g,%.10g " * (len(points) - 1), points)
 
 

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import colorsys
 from collections.abc import Sequence
+from dataclasses import dataclass
+
+from ..values import Stroke
 
 # Where each hue ends, in degrees.
 _HUES = (
@@ -29,3 +32,32 @@ def ink_name(color: Sequence[int]) -> str:
     if degrees < 45 and lightness < 0.4 and chroma < 0.5:
         return "Brown"
     return next(name for end, name in _HUES if degrees <= end)
+
+
+@dataclass(frozen=True)
+class InkLayer:
+    """The strokes of one ink.
+
+    name: of its own on the page: Black, Red, Red 2.
+    color: sRGB 0..255.
+    numbers: of the strokes, ascending.
+    """
+
+    name: str
+    color: tuple[int, int, int]
+    numbers: tuple[int, ...]
+
+
+def ink_layers(strokes: Sequence[Stroke]) -> list[InkLayer]:
+    """A layer per ink, that with the most strokes first."""
+    inks: dict[tuple[int, int, int], list[int]] = {}
+    for number, stroke in enumerate(strokes):
+        inks.setdefault(stroke.color, []).append(number)
+    times: dict[str, int] = {}
+    found = []
+    for color, numbers in sorted(inks.items(), key=lambda item: -len(item[1])):
+        name = ink_name(color)
+        times[name] = times.get(name, 0) + 1
+        unique = name if times[name] == 1 else f"{name} {times[name]}"
+        found.append(InkLayer(unique, color, tuple(numbers)))
+    return found

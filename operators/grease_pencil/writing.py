@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 import bpy
 import numpy as np
 
-from ...engine.ink.ink_names import ink_name
+from ...engine.ink.ink_names import ink_layers, ink_name
 from . import cels
 from .core.pixel_map import PixelMap
 from .core.stroke_arrays import HALF, LINE, TRACE, Curves, bridge_holes, column, stroke_curves
 
 if TYPE_CHECKING:
-    from ...engine import Drawing, Stroke
+    from ...engine import Drawing
 
 Array = np.ndarray
 
@@ -57,18 +57,13 @@ def write(
     if drawing.pencil and drawing.pencil.strokes:
         written.add(PENCIL_LAYER)
         _write_pencil(data, frame, drawing, pixel_map, key)
-    inks: dict[tuple[int, int, int], list[Stroke]] = {}
-    for stroke in drawing.strokes:
-        inks.setdefault(tuple(stroke.color), []).append(stroke)
-    names: dict[str, int] = {}
-    for color, strokes in sorted(inks.items(), key=lambda item: -len(item[1])):
-        name = ink_name(color)
-        names[name] = names.get(name, 0) + 1
-        layer = name if names[name] == 1 else f"{name} {names[name]}"
-        written.add(layer)
-        material = _material_slot(data, layer, color, fill=False)
+    inks = ink_layers(drawing.strokes)
+    for ink in inks:
+        written.add(ink.name)
+        material = _material_slot(data, ink.name, ink.color, fill=False)
+        strokes = [drawing.strokes[number] for number in ink.numbers]
         columns = stroke_curves(strokes, pixel_map, key, material)
-        cels.append(_keyframe(data, layer, frame), columns)
+        cels.append(_keyframe(data, ink.name, frame), columns)
     if not inks and not drawing.fills:
         _keyframe(data, ink_name((0, 0, 0)), frame)  # a blank page is a blank keyframe
     if alone:

@@ -8,8 +8,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .junction_cost import costs
-
 if TYPE_CHECKING:
     from ...engine import Drawing
     from ..grease_pencil.state import Trace
@@ -24,7 +22,8 @@ _tables: OrderedDict[tuple[str, bytes], JunctionTable] = OrderedDict()
 class JunctionTable:
     """positions: (J, 2) px, NaN where the artist left no stroke. degree: (J,) int.
 
-    doubt: (J,) in [0, 1]. locked: (J,) bool. cost: (J,) px, see `junction_cost`.
+    doubt: (J,) in [0, 1]. locked: (J,) bool. cost: (J,) px of stroke at risk.
+    doubtful: (J,) bool, see `Drawing.doubtful`.
     """
 
     positions: Array
@@ -32,6 +31,7 @@ class JunctionTable:
     doubt: Array
     locked: Array
     cost: Array
+    doubtful: Array
 
     @staticmethod
     def of(drawing: Drawing, halves: Array | None = None) -> JunctionTable:
@@ -40,16 +40,17 @@ class JunctionTable:
         Args:
             halves: first half-branches of the strokes that are there; None = all are.
         """
-        junctions = drawing.junctions
-        positions = np.array([j.position for j in junctions], np.float32).reshape(-1, 2)
+        graph, routing = drawing.graph, drawing.routing
+        positions = graph.vertices[graph.junctions].astype(np.float32)
         if halves is not None:
             positions[~_passed(drawing, halves)] = np.nan
         return JunctionTable(
             positions,
-            np.array([j.degree for j in junctions], np.int32),
-            np.array([j.doubt for j in junctions], np.float32),
-            np.array([j.locked for j in junctions], bool),
-            costs(drawing),
+            graph.degrees[graph.junctions],
+            drawing.doubts.astype(np.float32),
+            routing.locked[: len(positions)],
+            drawing.costs,
+            np.isin(np.arange(len(positions)), drawing.doubtful),
         )
 
     def __len__(self) -> int:
@@ -60,18 +61,20 @@ class JunctionTable:
         return ~self.locked & (1.0 - self.doubt >= certainty)
 
     def listed(
-        self, order: str = "DOUBT", at_least: float = 0.0, degree: int = 0, unlocked: bool = False
+        self, order: str = "DOUBT", doubtful: bool = False, degree: int = 0, unlocked: bool = False
     ) -> Array:
         """Which junctions a list shows, in its order.
 
         Args:
             order: "COST" = where a wrong answer changes most first; "DOUBT" = the most doubtful
                 first; "PLACE" = in reading order.
-            at_least: least doubt.
+            doubtful: leave out those that are certain or change little.
             degree: 3, 4, or 5 for five and more; 0 = any.
             unlocked: leave out what the user has fixed.
         """
-        keep = (self.doubt >= at_least) & np.isfinite(self.positions[:, 0])
+        keep = np.isfinite(self.positions[:, 0])
+        if doubtful:
+            keep &= self.doubtful
         if degree:
             keep &= (self.degree == degree) if degree < 5 else (self.degree >= 5)
         if unlocked:

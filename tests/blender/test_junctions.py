@@ -106,11 +106,12 @@ def test_list_filters_and_order(part):
         doubt=np.array([0.05, 0.4, 0.2, 0.0], np.float32),
         locked=np.array([False, False, False, True]),
         cost=np.array([9.0, 2.0, 30.0, 0.0]),
+        doubtful=np.array([True, False, True, False]),
     )
     assert table.listed("COST").tolist() == [2, 0, 1, 3]
     assert table.listed().tolist() == [1, 2, 0, 3]
     assert table.listed("PLACE").tolist() == [2, 1, 3, 0]
-    assert table.listed(at_least=0.1).tolist() == [1, 2]
+    assert table.listed("COST", doubtful=True).tolist() == [2, 0]
     assert table.listed(degree=3).tolist() == [2, 0]
     assert table.listed(degree=5).tolist() == [3]
     assert table.listed(unlocked=True).tolist() == [1, 2, 0]
@@ -229,6 +230,7 @@ def test_overlay_geometry(part):
         np.array([0.0, 0.5], np.float32),
         np.array([False, False]),
         np.array([0.0, 1.0]),
+        np.array([False, True]),
     )
     rings = geometry.rings(table, 4.0, (colors.SURE, colors.DOUBTFUL, colors.LOCKED))
     sides = len(rings.points) // 2

@@ -8,7 +8,6 @@ import subprocess
 import sys
 from pathlib import Path
 
-import cv2
 import numpy as np
 import pytest
 from hypothesis import given
@@ -21,17 +20,10 @@ from involute.command.setting_options import settings_options
 from involute.engine import Drawing, InvoluteError, Settings
 from involute.engine.sequence.frames import FrameRange
 
+from tests.command.numbered_scans import make_frames
+
 CALL = f"{shlex.quote(sys.executable)} -m involute"
 QUICK = ["--provider", "classical", "--router", "geometric"]
-
-
-def make_frames(folder, numbers):
-    folder.mkdir()
-    for k in numbers:
-        image = np.full((120, 120), 255, np.uint8)
-        cv2.line(image, (15, 20 + k), (105, 40 + k), 0, 3, cv2.LINE_AA)
-        cv2.line(image, (20 + k, 105), (60 + k, 70), 0, 3, cv2.LINE_AA)
-        cv2.imwrite(str(folder / f"walk_{k:04d}.png"), image)
 
 
 def openjd(*words):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import signal
 import struct
 import subprocess
@@ -130,30 +131,37 @@ def test_a_reader_that_takes_nothing_is_no_traceback(tmp_path):
         assert b"ignored" not in done.stderr
 
 
+WRONG, FAILED = cli.WRONG_USAGE, cli.FAILED
+
+
 @pytest.mark.parametrize(
-    "words",
+    ("words", "code"),
     [
-        ["--frames", "9" * 5000],
-        ["--frames", "1-99999999999999999999"],
-        ["--frames", ""],
-        ["--jobs", "9" * 30],
-        ["--jobs", "²"],
-        ["--pen-width", "nan"],
-        ["--smoothing", "inf"],
-        ["--ignore-inks", "x"],
-        ["--format", ","],
-        ["--report", "/"],
-        ["--report", ""],
-        ["--sequence", "--start", "99999999999"],
-        ["--sequence", "--step", "999999999999"],
-        ["--sequence", "--step", "0"],
+        (["--frames", "9" * 5000], WRONG),
+        (["--frames", "1-99999999999999999999"], WRONG),
+        (["--frames", ""], WRONG),
+        (["--jobs", "9" * 30], WRONG),
+        (["--jobs", "²"], WRONG),
+        (["--pen-width", "nan"], WRONG),
+        (["--smoothing", "inf"], WRONG),
+        (["--ignore-inks", "x"], WRONG),
+        (["--format", ","], WRONG),
+        (["--report", "/"], FAILED),
+        (["--report", ""], WRONG),
+        (["--sequence", "--start", "99999999999"], WRONG),
+        (["--sequence", "--step", "999999999999"], WRONG),
+        (["--sequence", "--step", "0"], WRONG),
+        (["--sharpness", "new\nline"], WRONG),
+        (["--jobs", "two\nlines"], WRONG),
     ],
 )
-def test_odd_arguments_are_one_sentence(words, tmp_path, capsys):
+def test_odd_arguments_are_one_sentence(words, code, tmp_path, capsys):
     page(tmp_path / "in" / "a1.png")
     page(tmp_path / "in" / "a2.png")
-    assert trace(tmp_path / "in", "-o", tmp_path / "out", "--format", "svg", *words) in (0, 1, 2)
-    assert "Traceback" not in capsys.readouterr().err
+    assert trace(tmp_path / "in", "-o", tmp_path / "out", "--format", "svg", *words) == code
+    said = capsys.readouterr().err
+    assert len(said.splitlines()) == 1
+    assert re.match(r"involute( trace)?: [A-Z].*\.$", said.rstrip())
 
 
 def test_what_is_no_file_is_never_replaced(tmp_path):
@@ -218,13 +226,48 @@ def test_told_to_end_it_leaves_nothing(number, wait, tmp_path):
     )
     time.sleep(wait)
     process.send_signal(number)
-    said = process.communicate(timeout=60)[1]
-    assert b"cli.py" not in said  # what comes before is Python itself that is starting
-    assert process.returncode in (0, cli.STOPPED, -number)
+    said = process.communicate(timeout=60)[1].decode()
+    done = sorted(out.iterdir()) if out.is_dir() else []
+    if process.returncode == cli.STOPPED:
+        assert re.fullmatch(r"(involute: left .*\n)?involute: Stopped; .*\n", said)
+    elif process.returncode == 0:  # it was faster
+        assert (len(done), said) == (12, "")
+    else:  # it had not begun: Python, which was starting, ended in its own way
+        assert process.returncode in (-number, 1 if number == signal.SIGINT else -number)
+        assert not done
+        assert f"{os.sep}command{os.sep}" not in said
+        assert f"{os.sep}engine{os.sep}" not in said
     assert not list(temporary.iterdir())
-    for path in out.iterdir() if out.is_dir() else ():
+    for path in done:
         assert ".part" not in path.name
         assert Drawing.load(path).strokes
+
+
+@pytest.mark.skipif(not Path("/proc/self/maps").exists(), reason="Linux tells what is loaded")
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("wait", [0.0, 0.2])
+def test_told_to_end_while_blender_loads_it_ends(number, wait, tmp_path):
+    """Blender prints what is raised while it loads, and goes on."""
+    pytest.importorskip("bpy")
+    for k in range(6):
+        page(tmp_path / "in" / f"{k}.png", 200)
+    out = tmp_path / "out" / "all.blend"
+    out.parent.mkdir()
+    process = subprocess.Popen(
+        [*COMMAND, tmp_path / "in", "-o", out, "--sequence", "--parts", tmp_path / "parts"],
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        preexec_fn=lambda: signal.signal(number, signal.default_int_handler),
+    )
+    loaded = Path(f"/proc/{process.pid}/maps")
+    while process.poll() is None and "/bpy/" not in loaded.read_text():
+        time.sleep(0.01)
+    time.sleep(wait)
+    process.send_signal(number)
+    said = process.communicate(timeout=60)[1]
+    assert process.returncode == cli.STOPPED
+    assert said.endswith(b"nothing is half-written.\n")
+    assert not list(out.parent.iterdir())
 
 
 def test_folders_of_killed_runs_are_cleared_away(tmp_path, monkeypatch):

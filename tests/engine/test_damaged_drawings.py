@@ -89,6 +89,7 @@ def test_what_the_engine_makes_is_sound(settings):
     [
         ("strokes.points", put((3, 0), np.nan), "the points of stroke 0 are not in range"),
         ("strokes.points", put((3, 0), np.inf), "the points of stroke 0 are not in range"),
+        ("strokes.points", lambda p: 0 * p + 9, "stroke 0 has no length: all its points are one"),
         ("strokes.widths", put(0, -1), "the widths of stroke 0 are not above zero"),
         ("strokes.opacity", put(0, 1.5), "the opacity of stroke 0"),
         ("strokes.offsets", lambda o: o[::-1], "the points of the strokes don't fit together"),
@@ -188,6 +189,9 @@ def test_regions_of_an_svg_are_those_of_its_closed_lines(tmp_path):
         ('<path d="L9,9"/>', "does not begin with a point"),
         ('<path d="C1,1 2,2 3,3"/>', "does not begin with a point"),
         ('<path d="M0,0"/>', "stroke 0 is not one line"),
+        ('<path d="M4,4 L4,4"/>', "stroke 0 has no length"),
+        ('<path d="M4,4 L4,4 4,4" data-closed="1"/>', "stroke 0 has no length"),
+        ('<path d="M4,4 C4,4 4,4 4,4"/>', "stroke 0 has no length"),
         ('<path d="M0,0 L"/>', "does not begin with a point"),
         ('<path d="M0 L9,9"/>', "can't be read"),
         ('<path d="m0,0 l9,9"/>', "other commands"),

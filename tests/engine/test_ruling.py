@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from involute.engine import Settings
 from involute.engine.pipeline import vectorize
-from involute.engine.scan import read_scan
+from involute.engine.scan import read_scan, ruling
 from involute.engine.scan.paper import flatten_paper
 from involute.engine.scan.ruling import without_rules
 
@@ -106,3 +106,11 @@ def test_hatching_is_a_drawing():
     page = np.zeros((SIZE, SIZE), np.float32)
     page[40:240:10, 20:620] = 0.5  # even and long, but on a third of the page
     assert without_rules(together(page, drawing())).sum() >= page.sum()
+
+
+def test_lines_that_cross_each_other_are_no_rules():
+    """Two lines with one place: the distance between them is no pitch."""
+    at = np.array([10, 14, 31, 60, 71, 99, 140, 171], float)
+    stray = np.zeros((len(at), 5), np.float32)
+    stray[0], stray[1] = 2, -2
+    assert ruling._families(ruling._Lines(at, stray, np.ones(len(at)), 0.0), 200) == []

@@ -1,0 +1,158 @@
+"""PDF in the size of the paper: shapes with the true widths, a layer per ink, a page per drawing.
+
+A stroke of even width is a line with round ends, as a person would draw it in Illustrator; any
+other is the filled shape that its pen leaves. Layers are PDF's optional content groups.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from pypdf import PageObject, PdfWriter
+from pypdf.generic import (
+    ArrayObject,
+    DecodedStreamObject,
+    DictionaryObject,
+    FloatObject,
+    IndirectObject,
+    NameObject,
+    TextStringObject,
+)
+
+from ..drawing import Drawing
+from ..ink.ink_names import ink_layers
+from ..values import Array, Stroke
+from .pen_shape import pen_shape
+
+_EVEN = 0.02  # share of its width by which a line may vary that is drawn as one
+_POINTS_PER_MM = 72 / 25.4
+_SOLIDS, _REGIONS = "Solids", "Regions"
+
+Content = list[tuple[str, list[str]]]  # layers from below: name, and what is drawn
+
+
+def write(drawing: Drawing, path: Path) -> None:
+    """Write a drawing as a PDF of one page."""
+    _write([drawing], path)
+
+
+def write_sequence(name: str, frames: Iterable[tuple[int, Drawing]], path: Path) -> None:
+    """Write the drawings of a sequence as the pages of one PDF; layers go through all of them."""
+    _write((drawing for _, drawing in frames), path)
+
+
+def _write(drawings: Iterable[Drawing], path: Path) -> None:
+    document = PdfWriter()
+    layers: dict[str, IndirectObject] = {}
+    for drawing in drawings:
+        _add_page(document, layers, drawing)
+    if not document.pages:
+        document.add_blank_page(1, 1)
+    document.metadata = {"/Producer": "Involute"}
+    groups = ArrayObject(layers.values())
+    shown = DictionaryObject({NameObject("/Order"): groups, NameObject("/ON"): groups})
+    document.root_object[NameObject("/OCProperties")] = DictionaryObject(
+        {NameObject("/OCGs"): groups, NameObject("/D"): shown}
+    )
+    with open(path, "wb") as file:
+        document.write(file)
+
+
+def _add_page(document: PdfWriter, layers: dict[str, IndirectObject], drawing: Drawing) -> None:
+    point = drawing.mm_per_px * _POINTS_PER_MM
+    width, height = (side * point for side in drawing.size)
+    page = document.add_blank_page(width, height)
+    fades: dict[str, DictionaryObject] = {}
+    names: dict[str, IndirectObject] = {}
+    lines = [f"{point:.6g} 0 0 {-point:.6g} 0 {height:.6g} cm 1 J 1 j"]
+    for name, drawn in _content(drawing, fades):
+        if name not in layers:
+            layers[name] = document._add_object(
+                DictionaryObject(
+                    {
+                        NameObject("/Type"): NameObject("/OCG"),
+                        NameObject("/Name"): TextStringObject(name),
+                    }
+                )
+            )
+        key = f"/L{len(names)}"
+        names[key] = layers[name]
+        lines += [f"/OC {key} BDC", *drawn, "EMC"]
+    stream = DecodedStreamObject()
+    stream.set_data("\n".join(lines).encode("ascii"))
+    page[NameObject("/Contents")] = document._add_object(stream.flate_encode())
+    _set_resources(page, {"/Properties": names, "/ExtGState": fades})
+
+
+def _set_resources(page: PageObject, tables: dict[str, dict[str, Any]]) -> None:
+    page[NameObject("/Resources")] = DictionaryObject(
+        {
+            NameObject(kind): DictionaryObject({NameObject(k): v for k, v in table.items()})
+            for kind, table in tables.items()
+        }
+    )
+
+
+def _content(drawing: Drawing, fades: dict[str, DictionaryObject]) -> Content:
+    """What is on the page, layer by layer; strengths that are used go into `fades`."""
+    content: Content = []
+    if drawing.settings.regions and drawing.regions:
+        colors = drawing.region_colors
+        if colors is None or len(colors) != len(drawing.regions):
+            colors = np.full((len(drawing.regions), 3), 255, np.uint8)
+        shapes = zip(colors.tolist(), drawing.regions, strict=True)
+        content.append((_REGIONS, [f"{_color(c)} rg {_rings(area)} f*" for c, area in shapes]))
+    if drawing.fills:
+        content.append((_SOLIDS, [f"0 g {_rings(area)} f*" for area in drawing.fills]))
+    for ink in ink_layers(drawing.strokes):
+        drawn = [f"{_color(ink.color)} rg {_color(ink.color)} RG"]
+        for number in ink.numbers:
+            stroke = drawing.strokes[number]
+            strength = round(float(stroke.opacity.mean()), 2)
+            key = f"/G{strength * 100:.0f}"
+            fades.setdefault(key, _fade(strength))
+            drawn.append(f"{key} gs {_stroke(stroke)}")
+        content.append((ink.name, drawn))
+    return content
+
+
+def _fade(strength: float) -> DictionaryObject:
+    value = FloatObject(strength)
+    return DictionaryObject({NameObject("/ca"): value, NameObject("/CA"): value})
+
+
+def _stroke(stroke: Stroke) -> str:
+    mean = float(stroke.widths.mean())
+    if np.ptp(stroke.widths) > _EVEN * mean:
+        return f"{_rings(pen_shape(stroke))} f"
+    points, handles = stroke.points, stroke.handles
+    end = "s" if stroke.closed else "S"
+    if handles is None:
+        return f"{mean:.4g} w {_polyline(points)} {end}"
+    if stroke.closed:
+        points = np.concatenate([points, points[:1]])
+        handles = np.concatenate([handles, handles[:1]])
+    bends = np.stack([handles[:-1, 1], handles[1:, 0], points[1:]], 1).reshape(-1, 2)
+    pattern = "%.10g %.10g m" + " %.10g %.10g %.10g %.10g %.10g %.10g c" * (len(bends) // 3)
+    return f"{mean:.4g} w {_numbers(pattern, np.concatenate([points[:1], bends]))} {end}"
+
+
+def _rings(rings: Sequence[Array]) -> str:
+    return " ".join(f"{_polyline(ring)} h" for ring in rings)
+
+
+def _polyline(points: Array) -> str:
+    return _numbers("%.10g %.10g m" + " %.10g %.10g l" * (len(points) - 1), points)
+
+
+def _numbers(pattern: str, points: Array) -> str:
+    # Hundredths of a pixel; rounding first keeps exponents out, which PDF does not know.
+    numbers = np.round(points.astype(np.float64), 2) + 0.0
+    return pattern % tuple(numbers.ravel().tolist())
+
+
+def _color(color: Sequence[int]) -> str:
+    return " ".join(f"{value / 255:.3g}" for value in color)
