@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Mapping
+from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
@@ -64,65 +65,104 @@ def features(strokes: Sampled, rungs: Rungs, ink: Array, pen: float) -> Array:
     """
     if not len(rungs.a):
         return np.zeros((0, FEATURES))
-    first = np.flatnonzero(np.diff(rungs.stretch, prepend=-1))
-    size = np.diff(np.append(first, len(rungs.a)))
-    a, b = rungs.a, rungs.b
     far = np.abs(rungs.aside) / pen
+    cut = _Cut.of(rungs)
+    columns = [
+        *_apart(rungs, far, cut),
+        *_long(strokes, rungs, pen, cut),
+        *_inked(strokes, rungs, ink, cut),
+        *_between(strokes, rungs, far, pen, cut),
+        np.full(len(cut.first), np.log(pen)),
+    ]
+    return np.column_stack([*columns, np.tile(_page(strokes, rungs, far), (len(cut.first), 1))])
 
-    def mean(values: Array) -> Array:
-        return np.add.reduceat(values, first) / size
 
-    own, other = strokes.stroke[a[first]], strokes.stroke[b[first]]
-    whole = np.bincount(rungs.whole)[rungs.whole[first]] * SPACING
-    whole_far = (np.bincount(rungs.whole, far) / np.bincount(rungs.whole))[rungs.whole[first]]
-    whole_most = np.zeros(len(whole))
+@dataclass(frozen=True, eq=False)
+class _Cut:
+    """Where the stretches begin in the rungs, (R,), how many rungs they have, and the numbers of
+    the uncut ones."""
+
+    first: Array
+    size: Array
+    whole: Array
+
+    @staticmethod
+    def of(rungs: Rungs) -> _Cut:
+        first = np.flatnonzero(np.diff(rungs.stretch, prepend=-1))
+        return _Cut(first, np.diff(np.append(first, len(rungs.a))), rungs.whole[first])
+
+    def mean(self, values: Array) -> Array:
+        """(R,) of (K,) values of the rungs."""
+        return np.add.reduceat(values, self.first) / self.size
+
+
+def _apart(rungs: Rungs, far: Array, cut: _Cut) -> list[Array]:
+    """How far the strokes lie apart, px and pens, and how that changes along the stretch."""
+    mean = cut.mean(far)
     most = np.zeros(int(rungs.whole.max()) + 1)
     np.maximum.at(most, rungs.whole, far)
-    whole_most = most[rungs.whole[first]]
-    lengths = strokes.length[own], strokes.length[other]
-    shorter, longer = np.minimum(*lengths), np.maximum(*lengths)
-    turn = np.abs((strokes.tangent[a] * strokes.tangent[b]).sum(1))
+    return [
+        np.log(mean + 0.1),
+        mean,
+        np.log(cut.mean(np.abs(rungs.aside)) + 0.5),
+        np.maximum.reduceat(far, cut.first),
+        np.minimum.reduceat(far, cut.first),
+        np.sqrt(np.maximum(cut.mean(far**2) - mean**2, 0)),
+        far[cut.first] / (mean + 0.2),
+        far[cut.first + cut.size - 1] / (mean + 0.2),
+        (np.bincount(rungs.whole, far) / np.bincount(rungs.whole))[cut.whole],
+        most[cut.whole],
+    ]
+
+
+def _long(strokes: Sampled, rungs: Rungs, pen: float, cut: _Cut) -> list[Array]:
+    """How long they run beside each other, of how long strokes, and how parallel."""
+    own, other = strokes.stroke[rungs.a[cut.first]], strokes.stroke[rungs.b[cut.first]]
+    shorter = np.maximum(np.minimum(strokes.length[own], strokes.length[other]), 1.0)
+    longer = np.maximum(np.maximum(strokes.length[own], strokes.length[other]), 1.0)
+    whole = np.bincount(rungs.whole)[cut.whole] * SPACING
+    turn = np.abs((strokes.tangent[rungs.a] * strokes.tangent[rungs.b]).sum(1))
+    return [
+        np.log(cut.size * SPACING / pen),
+        np.log(whole / pen),
+        whole / shorter,
+        whole / longer,
+        np.log(shorter / pen),
+        np.log(longer / pen),
+        shorter / longer,
+        cut.mean(turn),
+        np.minimum.reduceat(turn, cut.first),
+    ]
+
+
+def _inked(strokes: Sampled, rungs: Rungs, ink: Array, cut: _Cut) -> list[Array]:
+    """How dark and wide the strokes are, and how much paper is seen between them."""
+    a, b = rungs.a, rungs.b
     dark = strokes.strength[a], strokes.strength[b]
     weaker = np.maximum(np.minimum(*dark), 0.02)
     paper = np.min(
         [sample(ink, strokes.points[a] * (1 - t) + strokes.points[b] * t) for t in _BETWEEN], 0
     )
-    behind, beyond = _thirds(strokes, rungs, pen)
-    around = np.bincount(a, minlength=len(strokes.points))[a]
-    page = _page(strokes, rungs, far)
-    columns = [
-        np.log(mean(far) + 0.1),
-        mean(far),
-        np.log(mean(np.abs(rungs.aside)) + 0.5),
-        np.maximum.reduceat(far, first),
-        np.minimum.reduceat(far, first),
-        np.sqrt(np.maximum(mean(far**2) - mean(far) ** 2, 0)),
-        far[first] / (mean(far) + 0.2),
-        far[first + size - 1] / (mean(far) + 0.2),
-        np.log(size * SPACING / pen),
-        np.log(whole / pen),
-        whole_far,
-        whole_most,
-        whole / np.maximum(shorter, 1),
-        whole / np.maximum(longer, 1),
-        np.log(np.maximum(shorter, 1) / pen),
-        np.log(np.maximum(longer, 1) / pen),
-        shorter / np.maximum(longer, 1),
-        mean(turn),
-        np.minimum.reduceat(turn, first),
-        mean(weaker),
-        mean(weaker / np.maximum(np.maximum(*dark), 0.02)),
-        mean(paper / weaker),
-        np.minimum.reduceat(paper / weaker, first),
-        mean(strokes.width[a] / pen),
-        mean(strokes.width[b] / pen),
-        mean(np.log(behind)),
-        mean(np.log(beyond)),
-        mean(np.abs(np.log(np.minimum(behind, beyond) / (far + 0.1)))),
-        mean(around),
-        np.full(len(first), np.log(pen)),
+    pen = max(float(np.median(strokes.width)), 1.0)
+    return [
+        cut.mean(weaker),
+        cut.mean(weaker / np.maximum(np.maximum(*dark), 0.02)),
+        cut.mean(paper / weaker),
+        np.minimum.reduceat(paper / weaker, cut.first),
+        cut.mean(strokes.width[a] / pen),
+        cut.mean(strokes.width[b] / pen),
     ]
-    return np.column_stack([*columns, np.tile(page, (len(first), 1))])
+
+
+def _between(strokes: Sampled, rungs: Rungs, far: Array, pen: float, cut: _Cut) -> list[Array]:
+    """What lies beyond the two: hatching has a third stroke as far away as the second."""
+    behind, beyond = _thirds(strokes, rungs, pen)
+    return [
+        cut.mean(np.log(behind)),
+        cut.mean(np.log(beyond)),
+        cut.mean(np.abs(np.log(np.minimum(behind, beyond) / (far + 0.1)))),
+        cut.mean(np.bincount(rungs.a, minlength=len(strokes.points))[rungs.a]),
+    ]
 
 
 def _thirds(strokes: Sampled, rungs: Rungs, pen: float) -> tuple[Array, Array]:

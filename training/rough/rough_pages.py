@@ -1,8 +1,8 @@
 """Rough pages whose clean lines are known, traced as pencil strokes with our own stages.
 
-Three kinds: sketches, every line of which is said by several strokes; keyframes as animators draw
+Four kinds: sketches, every line of which is said by several strokes; keyframes as animators draw
 them, dark and nearly single, with the pencil lifted at corners and lines that run on beyond them;
-and clean pages, of which nothing is to be bundled.
+and clean pages, of which nothing is to be bundled, hatching and fur above all.
 """
 
 from __future__ import annotations
@@ -30,11 +30,20 @@ from involute.synthesis.sheet_of_paper import paper, scan, shadow
 
 Array = np.ndarray
 
-KINDS = ("sketch", "sketch", "sketch", "keyframe", "keyframe", "clean")  # by number, in turn
+KINDS = (
+    "sketch",
+    "keyframe",
+    "hatched",
+    "sketch",
+    "keyframe",
+    "clean",
+    "sketch",
+)  # by number, in turn
 EACH = (2, 4, 7)  # strokes a line of held-out sketches, in turn
 _SIZE = (0.4, 0.8)  # of a page of the benchmark's size: smaller ones are traced sooner
 _MARGIN, _LEAST = 24, 300  # px
 _DENSEST = 8.0  # px between the lines of a page; closer ones can't be drawn roughly
+_HATCHED = 420  # px; side of a page of hatching
 _CLEAN = ("technical pen", "ink", "pencil", "soft pencil", "marker", "ballpoint", "fineliner")
 
 
@@ -106,6 +115,8 @@ def rough_page(
 ) -> RoughPage | None:
     """One random page; None when its lines are too dense, or nothing was traced."""
     kind = KINDS[number % len(KINDS)]
+    if kind == "hatched":
+        return hatched(rng)
     lines = [line.astype(np.float32) * rng.uniform(*_SIZE) for line in next(endless(rng, library))]
     size = max(int(np.ceil(np.max([line.max(0) for line in lines]) + _MARGIN)), _LEAST)
     spacing = line_spacing(sample(lines, size), size)
@@ -122,6 +133,72 @@ def rough_page(
         ink = _drawn_once(rng, lines, spacing, size)
     spread, strokes = (hand.spread, hand.strokes) if hand else (0.0, 1.0)
     return _traced(_scanned(rng, ink), lines, spread, strokes)
+
+
+def hatched(rng: np.random.Generator) -> RoughPage:
+    """Patches of parallel strokes beside single lines, as if they had been traced exactly."""
+    pen = float(np.exp(rng.uniform(np.log(1.3), np.log(4.0))))
+    lines: list[Array] = []
+    for _ in range(rng.integers(1, 6)):
+        lines += _patch(rng, pen) if rng.random() < 0.7 else _contours(rng, pen)
+    lines = [line for line in lines if line.min() > 4 and line.max() < _HATCHED - 4] or [
+        np.array([[20.0, 20.0], [80.0, 30.0]])
+    ]
+    offsets = np.cumsum([0] + [len(line) for line in lines])
+    strength = [np.full(len(line), rng.uniform(0.5, 1.0)) for line in lines]
+    widths = [np.full(len(line), pen * rng.uniform(0.85, 1.2)) for line in lines]
+    vertices = np.concatenate([line[[0, -1]] for line in lines])
+    graph = PlanarGraph(
+        vertices.astype(np.float32),
+        np.concatenate(lines).astype(np.float32),
+        offsets.astype(np.int32),
+        np.arange(2 * len(lines), dtype=np.int32).reshape(-1, 2),
+        np.concatenate(widths).astype(np.float32),
+        np.concatenate(strength).astype(np.float32),
+    )
+    ink = np.zeros((_HATCHED, _HATCHED), np.uint8)
+    for line, dark in zip(lines, strength, strict=True):
+        fixed = np.round((line - 0.5) * 256).astype(np.int32)
+        wide = max(1, round(pen))
+        cv2.polylines(ink, [fixed], False, int(255 * dark[0]), wide, cv2.LINE_AA, 8)
+    ink = cv2.GaussianBlur(ink, (0, 0), rng.uniform(0.4, 1.0))
+    partner = np.arange(2 * len(lines), dtype=np.int32)
+    return RoughPage(lines, ink, graph, partner, 0.0, 1.0)
+
+
+def _patch(rng: np.random.Generator, pen: float) -> list[Array]:
+    """Hatching, or fur: strokes of about one length at about even distances."""
+    apart = pen * rng.uniform(1.7, 5.0)
+    count, length = int(rng.integers(4, 30)), float(np.exp(rng.uniform(np.log(15), np.log(220))))
+    loose, turn = rng.uniform(0.02, 0.25), rng.uniform(0, np.pi)
+    bend = rng.normal(0, 0.3)
+    along = np.array([np.cos(turn), np.sin(turn)])
+    across = np.array([-along[1], along[0]])
+    middle = rng.uniform(0.2, 0.8, 2) * _HATCHED
+    slant, fan = rng.normal(0, 0.3) * along, rng.normal(0, 0.02) * rng.random()
+    strokes = []
+    for k in range(count):
+        half = 0.5 * length * (1 + loose * rng.normal())
+        t = np.linspace(-1, 1, max(3, int(abs(half)) + 2))[:, None]
+        tilt = fan * (k - count / 2) + 0.15 * loose * rng.normal()
+        start = middle + apart * (k - count / 2 + loose * rng.normal()) * (across + slant)
+        start = start + loose * length * 0.3 * rng.normal() * along
+        strokes.append(start + half * (t * (along + tilt * across) + bend * t * t * across))
+    return strokes
+
+
+def _contours(rng: np.random.Generator, pen: float) -> list[Array]:
+    """Two or three lines that run beside each other for long: a belt, a seam, a rope."""
+    turn, radius = rng.uniform(0, 2 * np.pi), rng.uniform(60, 400)
+    span = min(rng.uniform(60, 350) / radius, 4.0)
+    center = rng.uniform(0.2, 0.8, 2) * _HATCHED - radius * np.array([np.cos(turn), np.sin(turn)])
+    angle = np.linspace(turn - span / 2, turn + span / 2, max(4, int(span * radius / 2)))
+    way = np.stack([np.cos(angle), np.sin(angle)], 1)
+    apart = pen * rng.uniform(2.2, 6)
+    return [
+        center + (radius + apart * (k + rng.normal(0, 0.03))) * way
+        for k in range(int(rng.integers(2, 4)))
+    ]
 
 
 def _keyframing(rng: np.random.Generator, pen: float) -> Hand:
