@@ -102,6 +102,12 @@ def pairs_within(partner: Array) -> tuple[Pair, ...]:
     return tuple((i, j) for i, j in enumerate(partner.tolist()) if i < j)
 
 
+def pairs_of(partner: Array, halves: Array) -> tuple[Pair, ...]:
+    """An involution of local numbers as ascending pairs of half-branches."""
+    own = halves.tolist()
+    return tuple((own[i], own[j]) for i, j in pairs_within(partner))
+
+
 def best_matching(score: Array) -> Array:
     """The involution with the greatest sum of pair scores, by the blossom algorithm.
 
