@@ -191,7 +191,7 @@ def _bundles(
     if settings.drawing == "clean" or not known or graph.branch_count == 0:
         return None
     found = bundled(graph, routing.partner, scan.ink)
-    return found if is_rough(found, settings) else None
+    return found if is_rough(found, graph, settings) else None
 
 
 def _clean(

@@ -2,8 +2,8 @@
 
 `python -m training run rough --data DIR --run RUN --pages 170` draws and traces pages
 (`rough_pages`; RUN/train and RUN/held_out, started again it goes on) and trains three small
-networks, one on what the other leaves: which strokes mean one line, which redrawn lines are meant,
-and which go on in which. It writes engine/weights/rough.npz; the held-out pages choose when to
+networks, one on what the other leaves: which strokes mean one line (on any page, and on rough
+ones), which redrawn lines are meant, and which go on in which. It writes engine/weights/rough.npz; the held-out pages choose when to
 stop. The figures go to RUN/log.json.
 """
 
@@ -35,7 +35,7 @@ Array = np.ndarray
 Rows = tuple[Array, Array]
 Net = dict[str, Array]
 
-_HIDDEN = {"same": (32, 16), "meant": (32, 16), "goes_on": (48, 24)}
+_HIDDEN = {"tells": (32, 16), "same": (32, 16), "meant": (32, 16), "goes_on": (48, 24)}
 _BATCH, _NOISE, _DROPOUT = 1024, 0.1, 0.2
 _EVERY = 75  # steps between two looks at the held-out pages
 _NEAR = (3.5, 1.5)  # px, and times the spread, that a redrawn line may lie off the stroke it is
@@ -81,6 +81,9 @@ def learnt(
         figures[name] = figure
         print(name, figure, flush=True)
 
+    learn("tells", *([stretches(page) for page in part] for part in (pages, held)))
+    # On a page that is known to be rough, more means one line than anywhere.
+    pages, held = ([page for page in part if page.spread > 0] for part in (pages, held))
     learn("same", *([stretches(page) for page in part] for part in (pages, held)))
     wide = {k: v.astype(np.float64) for k, v in net.items()}
     redrawn = [[redrawn_rows(page, wide) for page in part] for part in (pages, held)]
