@@ -12,6 +12,7 @@ from __future__ import annotations
 import argparse
 import hashlib
 import importlib.util
+import json
 import os
 import re
 import shutil
@@ -35,9 +36,11 @@ PLATFORMS = {  # Blender's name: (part of the OpenCV wheel's file name, pip's --
 _EPOCH = (2026, 1, 1, 0, 0, 0)  # one date for all files: the zip is reproducible
 
 
-def build(platform: str, output: Path) -> Path:
-    """Build the zip for one platform and return its path."""
+def build(platform: str, output: Path, website: str = "") -> Path:
+    """Build the zip for one platform, with the website of whoever publishes it; its path."""
     manifest = (ROOT / "blender_manifest.toml").read_text("utf-8")
+    if website:
+        manifest = manifest.replace("\ntype = ", f"\nwebsite = {json.dumps(website)}\ntype = ", 1)
     parsed = tomllib.loads(manifest)
     wheels = [Path(w) for w in parsed["wheels"] if _fits(Path(w).name, platform)]
     fetch(platform, [w.name for w in wheels])
@@ -131,11 +134,14 @@ def main(argv: list[str] | None = None) -> int:
         metavar="FOLDER",
         help="put the zips there instead, and list them so that Blender installs from it",
     )
+    parser.add_argument(
+        "--website", default="", metavar="URL", help="where users find help: it goes into the zips"
+    )
     parser.add_argument("--no-validate", action="store_true", help="don't run Blender's checker")
     options = parser.parse_args(argv)
     output = options.repository or options.output
     for name in options.platform:
-        path = build(host_platform() if name == "host" else name, output)
+        path = build(host_platform() if name == "host" else name, output, options.website)
         if not options.no_validate:
             validate(path)
         digest = hashlib.sha256(path.read_bytes()).hexdigest()
