@@ -65,9 +65,8 @@ def test_every_link_leads_somewhere(site: Path) -> None:
             if parts.scheme in ("http", "https", "mailto", "javascript", "data"):
                 continue
             target = (path.parent / unquote(parts.path)).resolve() if parts.path else path
-            if not target.is_file() or (
-                target in found and unquote(parts.fragment) not in found[target].anchors
-            ):
+            anchors = found[target].anchors if target in found else {unquote(parts.fragment)}
+            if not target.is_file() or unquote(parts.fragment) not in anchors:
                 lost.append(f"{path.name}: {link}")
     assert lost == []
 
