@@ -34,6 +34,7 @@ class Task:
     """One image to trace into one or more files; how the name of each ends says its format.
 
     receipt: where it is noted what was made; "" = beside the first output.
+    turn: look at the drawing in the same pose however its page was turned; see `vectorize`.
     """
 
     source: str
@@ -41,6 +42,7 @@ class Task:
     settings: Settings = field(default_factory=Settings)
     page: int = 0
     receipt: str = ""
+    turn: bool = True
 
 
 @dataclass(frozen=True)
@@ -206,7 +208,7 @@ def perform(task: Task, progress: Callable[[str, float], None] | None = None) ->
         with suppress(OSError):  # a missing file is vectorize's to report
             if task.receipt:
                 key = receipts.fingerprint(task.source, task.page, task.settings)
-        drawing = vectorize(task.source, task.settings, progress, page=task.page)
+        drawing = vectorize(task.source, task.settings, progress, page=task.page, turn=task.turn)
         report = summary(drawing)
         _write(drawing, task, key, report)
     except InvoluteError as error:

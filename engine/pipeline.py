@@ -13,7 +13,7 @@ from time import perf_counter
 
 from .centerline import provider_for
 from .centerline.mending import mended
-from .drawing import Drawing
+from .drawing import Drawing, Fill
 from .errors import Cancelled
 from .fills.solids import split_solids
 from .graph import Evidence, routed, run_passes
@@ -25,7 +25,7 @@ from .scan.registration import set_aside
 from .scan.screentone import without_screentone
 from .scan.wide_lines import find_wide_lines
 from .settings import Settings
-from .values import Array
+from .values import Array, PlanarGraph, Pose, Scan
 from .wide_pens import look_again
 
 Progress = Callable[[str, float], None]
@@ -49,6 +49,7 @@ def vectorize(
     progress: Progress | None = None,
     *,
     page: int = 0,
+    turn: bool = True,
 ) -> Drawing:
     """Trace one drawing.
 
@@ -58,6 +59,8 @@ def vectorize(
         settings: see `Settings`.
         progress: called as progress(stage, fraction of the whole); may raise `Cancelled`.
         page: which page of a TIFF with several.
+        turn: look at the drawing in the same pose however its page was turned or mirrored. False
+            for the frames of a sequence, which are looked at alike, each as it lies.
 
     Returns:
         The drawing in pixels of the input; `drawing.seconds` says how long each stage took.
@@ -69,7 +72,8 @@ def vectorize(
     settings = settings or Settings()
     clock = _Clock(progress)
     with clock("scan"):
-        scan = set_aside(read_scan(source, settings, page=page), settings)
+        turn = turn and not settings.align
+        scan = set_aside(read_scan(source, settings, page=page, turn=turn), settings)
         scan = without_screentone(without_inks(scan, settings), settings)
     with clock("solids"):
         wide = find_wide_lines(scan, settings)
@@ -88,10 +92,26 @@ def vectorize(
         graph, routing = routed(graph, evidence, settings, route)
         del evidence
     with clock("strokes"):
+        graph, fills, scan = _as_they_lay(graph, fills, scan)
         drawing = Drawing.from_routing(graph, routing, scan, settings, fills)
     with clock("check"):
         drawing = drawing.compared_with(scan)
     return drawing.with_seconds(clock.seconds)
+
+
+def _as_they_lay(
+    graph: PlanarGraph, fills: list[Fill], scan: Scan
+) -> tuple[PlanarGraph, list[Fill], Scan]:
+    """The lines and areas of a page that was turned, and the page, as it lay."""
+    size = scan.size[0] / scan.scale, scan.size[1] / scan.scale
+
+    def place(points: Array) -> Array:
+        return scan.pose.points_back(points, size)
+
+    if scan.pose == Pose():
+        return graph, fills, scan
+    areas = [tuple(place(ring) for ring in fill) for fill in fills]
+    return graph.moved(place), areas, scan.as_it_lay()
 
 
 class _Clock:
