@@ -6,19 +6,21 @@ are the same objects in the new drawing, so whoever shows them can tell by ident
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from itertools import pairwise
 from os import PathLike
 
 import numpy as np
 
 from .errors import InvoluteError
 from .fidelity import Fidelity, fidelity, warnings
-from .graph.editing import cut_branch, join_ends, place_on
-from .routing import checked_pairs, route
+from .graph.editing import Edits, Step, edited, place_on
+from .routing import around, checked_pairs, rescored, route, taught
 from .routing.cost import costs
 from .routing.lifting import goes_on
+from .routing.ways import Ways
 from .settings import Settings
 from .strokes import Page, build, walk
 from .values import Array, Junction, Pair, PlanarGraph, Routing, Scan, Stroke
@@ -49,6 +51,8 @@ class Drawing:
     fidelity: how faithful it was to the ink when it was traced; None when nobody looked.
     notes: what was left out of it on purpose, a sentence each.
     warnings: what is wrong with it, each with what to do about it.
+    edits: what was cut and joined since it was traced or read; None = nothing. Not kept in files,
+        whose graph has it.
     dpi: pixels of the input per inch of paper, as its file says; None = it does not say.
     page: what all strokes share, for rerouting; None = found from the graph when first needed. Not
         kept in files.
@@ -67,6 +71,7 @@ class Drawing:
     fidelity: Fidelity | None = None
     notes: tuple[str, ...] = ()
     warnings: tuple[str, ...] = ()
+    edits: Edits | None = field(default=None, repr=False)
     dpi: float | None = None
     page: Page | None = field(default=None, repr=False)
 
@@ -126,24 +131,23 @@ class Drawing:
 
     @cached_property
     def _places(self) -> tuple[Junction, ...]:
+        return tuple(self.place(number) for number in range(len(self.graph.places)))
+
+    def place(self, number: int) -> Junction:
+        """One junction or corner, without looking at the others."""
         graph, routing = self.graph, self.routing
-        order, starts = (values.tolist() for values in graph.halves_at)
-        partner, position = routing.partner.tolist(), graph.vertices.tolist()
-        locked = routing.locked.tolist()
-        found = []
-        for index, vertex in enumerate(graph.places.tolist()):
-            halves = tuple(order[starts[vertex] : starts[vertex + 1]])
-            found.append(
-                Junction(
-                    index=index,
-                    position=tuple(position[vertex]),
-                    half_branches=halves,
-                    pairs=tuple((h, partner[h]) for h in halves if h < partner[h]),
-                    alternatives=routing.alternatives[index],
-                    locked=locked[index],
-                )
-            )
-        return tuple(found)
+        order, starts = graph.halves_at
+        vertex = graph.places[number]
+        halves = order[starts[vertex] : starts[vertex + 1]]
+        pairs = zip(halves.tolist(), routing.partner[halves].tolist(), strict=True)
+        return Junction(
+            index=int(number),
+            position=tuple(graph.vertices[vertex].tolist()),
+            half_branches=tuple(halves.tolist()),
+            pairs=tuple((a, b) for a, b in pairs if a < b),
+            alternatives=routing.alternatives[number],
+            locked=bool(routing.locked[number]),
+        )
 
     @cached_property
     def regions(self) -> tuple[Fill, ...]:
@@ -156,10 +160,24 @@ class Drawing:
         return closed_regions(self.graph, 4.0 * float(np.median(self.graph.widths)) ** 2)
 
     @cached_property
+    def _decided(self) -> dict[int, tuple[Pair, ...]]:
+        """The pairs at each place that is locked."""
+        partner, found = self.routing.partner, {}
+        for place in np.flatnonzero(self.routing.locked).tolist():
+            halves = self.graph.halves_of(self.graph.places[place]).tolist()
+            found[place] = tuple((h, int(partner[h])) for h in halves if h < partner[h])
+        return found
+
+    @cached_property
     def costs(self) -> Array:
         """(J,) px: the doubt of each junction times the length of stroke that another answer would
         change; 0 where it is locked."""
-        return costs(self.graph, self.strokes, self.junctions)
+        return costs(self.graph, self.routing, self.strokes)
+
+    @cached_property
+    def doubts(self) -> Array:
+        """(J,) the doubt of each junction: 1 - probability of its routing; 0 where it is locked."""
+        return Ways.of(self.graph, self.routing).doubts(self.routing)
 
     @property
     def mm_per_px(self) -> float:
@@ -191,6 +209,26 @@ class Drawing:
             partner[a], partner[b] = b, a
         return self._with_partner(partner)._with_locked([junction], True)
 
+    def reroute_along(self, halves: Sequence[int]) -> Drawing:
+        """Let one stroke run through these half-branches, in walking order; what else meets at the
+        places that it passes is decided anew around it, and all of them are locked.
+
+        Raises:
+            InvoluteError: they do not follow each other, or pass no place.
+        """
+        vertex = self.graph.half_vertex
+        steps = [(int(a) ^ 1, int(b)) for a, b in pairwise(halves)]
+        if not steps or any(a == b or vertex[a] != vertex[b] for a, b in steps):
+            raise InvoluteError("Lines that follow each other at a junction are needed.")
+        asked: dict[int, list[Pair]] = {}
+        for a, b in steps:
+            asked.setdefault(int(vertex[b]), []).append((min(a, b), max(a, b)))
+        drawing = self
+        for at, pairs in asked.items():
+            ways = around(self.graph.halves_of(at), self.routing, set(pairs))
+            drawing = drawing.reroute(self._at_vertex(at).index, ways)
+        return drawing
+
     def lock(self, junction: int) -> Drawing:
         """Keep this junction or corner as it is: it counts as certain, and `ask_again` learns from
         it."""
@@ -202,8 +240,12 @@ class Drawing:
 
     def accept_above(self, probability: float) -> Drawing:
         """Lock every junction whose routing is at least this probable."""
-        sure = [j.index for j in self.junctions if not j.locked and 1 - j.doubt >= probability]
-        return self._with_locked(sure, True)
+        free = ~self.routing.locked[: len(self.doubts)]
+        return self.lock_all(np.flatnonzero(free & (1 - self.doubts >= probability)).tolist())
+
+    def lock_all(self, junctions: Iterable[int]) -> Drawing:
+        """Keep these junctions and corners as they are."""
+        return self._with_locked(junctions, True)
 
     def with_routing(self, partner: Array, locked: Array) -> Drawing:
         """The drawing as it was when its routing was this, for what stores only that.
@@ -248,7 +290,7 @@ class Drawing:
         """
         place = place_on(self.graph, self._stroke(stroke).branches, np.asarray(point, float))
         if place.half < 0:
-            return self._with_graph(*cut_branch(self.graph, self.routing, place.point))
+            return self.with_edits([(place.point, -1)])
         if self.routing.partner[place.half] == place.half:
             raise InvoluteError("This stroke ends there already.")
         there = self._at_vertex(int(self.graph.half_vertex[place.half]))
@@ -273,13 +315,66 @@ class Drawing:
             return self.reroute(there.index, [*there.pairs, (a, b)])
         if (self.graph.degrees[vertex[[a, b]]] != 1).any():
             raise InvoluteError("Only ends that meet, or that hang on nothing, can be joined.")
-        return self._with_graph(*join_ends(self.graph, self.routing, a, b))
+        return self.with_edits([(a, b)])
+
+    def with_edits(self, steps: Iterable[Step]) -> Drawing:
+        """Cut and join, as `edits.steps` of another drawing tell it: each step makes a corner, the
+        last one, which is locked. Strokes that have none of the changed branches stay.
+
+        Raises:
+            ValueError: a step does not fit the graph.
+        """
+        steps = tuple(steps)
+        graph, routing, touched = edited(self.graph, self.routing, steps)
+        if not steps:
+            return self
+        page = Page.of(graph, self.settings)
+        gone = [s for s in self.strokes if not touched.isdisjoint((s.branches >> 1).tolist())]
+        branches = touched.union(*((s.branches >> 1).tolist() for s in gone))
+        left = {id(s) for s in gone}
+        kept = [s for s in self.strokes if id(s) not in left]
+        made = build(page, walk(routing.partner, branches))
+        strokes = tuple(sorted([*kept, *made], key=lambda s: int(s.branches.min()) >> 1))
+        before = self.edits or Edits(self.graph, ())
+        edits = Edits(before.graph, before.steps + steps)
+        return replace(self, graph=graph, routing=routing, strokes=strokes, page=page, edits=edits)
+
+    def with_scores(self, pair_score: Array) -> Drawing:
+        """The same routing with other log-odds of the pairs, and the alternatives that follow.
+
+        Args:
+            pair_score: (K,) as in `Routing`.
+        """
+        routing = rescored(self.graph, self.routing, pair_score, self._decided)
+        return replace(self, routing=routing)
 
     def ask_again(self) -> Drawing:
         """Route the junctions and corners that are not locked anew, given those that are."""
-        fixed = {place.index: place.pairs for place in self._places if place.locked}
-        routing = route(_scaled(self.graph, 1 / self.scale), self.settings, fixed)
+        routing = route(_scaled(self.graph, 1 / self.scale), self.settings, self._decided)
         return replace(self._with_partner(routing.partner), routing=routing)
+
+    def ask_around(self, before: Drawing) -> Drawing:
+        """Route the junctions around those that were decided or unlocked since `before` anew, given
+        what is decided; what is locked stays. Takes a hundredth of a second.
+
+        Args:
+            before: the same graph.
+        """
+        graph = _scaled(self.graph, 1 / self.scale)
+        decided = self._decided
+        score, heard = taught(graph, self.routing, before._decided, decided, self.settings)
+        heard = heard[~self.routing.locked[heard]]
+        if not len(heard):
+            return self
+        routing = rescored(self.graph, self.routing, score, decided, heard)
+        partner = self.routing.partner.copy()
+        for place in heard.tolist():
+            halves = self.graph.halves_of(self.graph.places[place])
+            partner[halves] = halves
+            for a, b in routing.alternatives[place][0].pairs:
+                partner[a], partner[b] = b, a
+        changed = self._with_partner(partner)
+        return replace(changed, routing=replace(routing, partner=changed.routing.partner))
 
     def restroked(self, settings: Settings) -> Drawing:
         """The same lines and decisions with the strokes made anew.
@@ -328,20 +423,6 @@ class Drawing:
     def _pairs_at_corners(self) -> Array:
         """(C, 2) int32: the two half-branches of each corner."""
         return self.routing.pairs[len(self.routing.pairs) - len(self.graph.corners) :]
-
-    def _with_graph(self, graph: PlanarGraph, routing: Routing) -> Drawing:
-        """A drawing whose graph has one corner more, the last one, which is locked as it is. Old
-        branches keep their numbers, and strokes that have none of the changed ones stay."""
-        halves = graph.halves_of(graph.corners[-1])
-        changed = {int(half) >> 1 for half in halves}
-        page = Page.of(graph, self.settings)
-        gone = [s for s in self.strokes if not changed.isdisjoint((s.branches >> 1).tolist())]
-        branches = changed.union(*((s.branches >> 1).tolist() for s in gone))
-        left = {id(s) for s in gone}
-        kept = [s for s in self.strokes if id(s) not in left]
-        made = build(page, walk(routing.partner, branches))
-        strokes = sorted([*kept, *made], key=lambda s: int(s.branches.min()) >> 1)
-        return replace(self, graph=graph, routing=routing, strokes=tuple(strokes), page=page)
 
     def _with_partner(self, partner: Array) -> Drawing:
         """Walk anew what the changed half-branches belong to; keep all other strokes."""

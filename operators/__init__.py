@@ -23,8 +23,12 @@ _VERBS = (
     "junctions.reroute",
     "junctions.join",
     "junctions.separate",
+    "junctions.cut",
+    "junctions.route_along",
+    "junctions.lift_bias",
     "junctions.lock",
     "junctions.accept",
+    "junctions.accept_inside",
     "junctions.ask_again",
     "junctions.go_to_junction",
     "junctions.preview",
@@ -49,6 +53,7 @@ def register() -> None:
 
     from . import blender_command
     from .grease_pencil import saving
+    from .junctions import lift_bias
     from .tracing import background, trace_settings, use_defaults
     from .view import view_state
 
@@ -57,6 +62,7 @@ def register() -> None:
     pointer = bpy.props.PointerProperty
     bpy.types.Scene.involute = pointer(type=trace_settings.INVOLUTE_PG_trace_settings)
     bpy.types.WindowManager.involute_view = pointer(type=view_state.INVOLUTE_PG_view)
+    lift_bias.register()
     saving.register()
     background.register()
     use_defaults.register()
@@ -69,12 +75,14 @@ def unregister() -> None:
 
     from . import blender_command
     from .grease_pencil import saving
+    from .junctions import lift_bias
     from .tracing import background, use_defaults
 
     blender_command.unregister()
     use_defaults.unregister()
     background.unregister()
     saving.unregister()
+    lift_bias.unregister()
     del bpy.types.WindowManager.involute_view
     del bpy.types.Scene.involute
     for cls in reversed(_classes()):

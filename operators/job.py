@@ -35,6 +35,11 @@ class Job:
         """Ask to stop, at the next step."""
         self.cancelled = True
 
+    def wait(self, seconds: float) -> None:
+        """Wait until the thread has ended, but no longer than that."""
+        if self.running:
+            self._thread.join(seconds)
+
     @property
     def running(self) -> bool:
         """Is the thread still at work?"""
@@ -62,9 +67,14 @@ current: Job | None = None
 """The trace that runs now, for the sidebar; there is at most one."""
 
 
-def abandon() -> None:
-    """Whoever waited for the job is gone: let it stop by itself, and the next one begin."""
+def abandon(wait: float = 0.0) -> None:
+    """Whoever waited for the job is gone: let it stop by itself, and the next one begin.
+
+    Args:
+        wait: seconds that it is given to have stopped when this returns.
+    """
     global current
     if current is not None:
         current.cancel()
+        current.wait(wait)
         current = None

@@ -112,7 +112,8 @@ def test_no_module_name_twice():
 def test_the_pure_core_knows_no_blender():
     """Plan purely, apply once: what a rerouting changes is worked out without Blender."""
     pure = [n for n in trees() if n.startswith("operators.grease_pencil.core")]
-    pure += [f"operators.view.{n}" for n in ("card_layout", "picking", "junction_table")]
+    names = ("card_layout", "picking", "following", "alike", "junction_table")
+    pure += [f"operators.view.{name}" for name in names]
     for name in pure:
         for node in on_loading(trees()[name]):
             if isinstance(node, ast.Import | ast.ImportFrom):

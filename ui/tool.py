@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import bpy
 
+from ..operators.junctions.accept_inside import INVOLUTE_OT_lasso_accept
 from ..operators.junctions.choose import INVOLUTE_OT_choose
-from ..operators.junctions.drag_join import INVOLUTE_OT_drag_join, INVOLUTE_OT_separate_under_mouse
+from ..operators.junctions.cut import INVOLUTE_OT_swipe_cut
+from ..operators.junctions.drag_join import INVOLUTE_OT_drag_join
 
 
 class _Junctions:
@@ -13,8 +15,10 @@ class _Junctions:
     bl_label = "Junctions"
     bl_description = (
         "Click a junction to choose among its alternatives\n"
-        "Drag from one line to another to join them\n"
-        "Ctrl-click or Alt-click a line to end it at its junction"
+        "Drag along a line to let one stroke follow it; from line to line or end to end to join\n"
+        "Ctrl-drag or Alt-drag across strokes to cut them\n"
+        "Ctrl-click or Alt-click a line to end it at its junction\n"
+        "Shift-drag around junctions to accept them; with Ctrl, too, a box"
     )
     bl_icon = "ops.node.add_reroute"
     bl_keymap = (
@@ -27,11 +31,21 @@ class _Junctions:
         # Some window managers take Alt-click for themselves.
         *(
             (
-                INVOLUTE_OT_separate_under_mouse.bl_idname,
+                INVOLUTE_OT_swipe_cut.bl_idname,
                 {"type": "LEFTMOUSE", "value": "PRESS", key: True},
                 None,
             )
             for key in ("ctrl", "alt")
+        ),
+        (
+            INVOLUTE_OT_lasso_accept.bl_idname,
+            {"type": "LEFTMOUSE", "value": "PRESS", "shift": True},
+            None,
+        ),
+        (
+            INVOLUTE_OT_lasso_accept.bl_idname,
+            {"type": "LEFTMOUSE", "value": "PRESS", "shift": True, "ctrl": True},
+            {"properties": [("box", True)]},
         ),
     )
 

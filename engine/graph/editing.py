@@ -6,7 +6,8 @@ locked, and a new branch the last one.
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -14,6 +15,64 @@ import numpy as np
 from ..values import Alternative, Array, Pair, PlanarGraph, Routing
 
 NEAR = 1.0  # pen widths; so near a vertex, it is meant
+
+
+Step = tuple[int, int]
+"""What was done once: (point, -1) cuts a branch, (a, b) joins the ends of two half-branches."""
+
+
+@dataclass(frozen=True, eq=False)
+class Edits:
+    """What made a graph from an earlier one; enough to make it again.
+
+    graph: the earlier one. steps: in order.
+    """
+
+    graph: PlanarGraph
+    steps: tuple[Step, ...]
+
+
+def edited(
+    graph: PlanarGraph, routing: Routing, steps: Iterable[Step]
+) -> tuple[PlanarGraph, Routing, set[int]]:
+    """Cut and join; also gives the branches that are not what they were.
+
+    Raises:
+        ValueError: a step does not fit the graph.
+    """
+    touched: set[int] = set()
+    for step in steps:
+        check_step(graph, step)
+        graph, routing = do_step(graph, routing, step)
+        touched |= {int(half) >> 1 for half in graph.halves_of(graph.corners[-1])}
+    return graph, routing, touched
+
+
+def do_step(graph: PlanarGraph, routing: Routing, step: Step) -> tuple[PlanarGraph, Routing]:
+    """Cut or join once."""
+    first, second = step
+    if second < 0:
+        return cut_branch(graph, routing, first)
+    return join_ends(graph, routing, first, second)
+
+
+def check_step(graph: PlanarGraph, step: Step) -> None:
+    """Does a step fit a graph?
+
+    Raises:
+        ValueError: it does not.
+    """
+    first, second = step
+    if second < 0:
+        tips = np.concatenate([graph.offsets, graph.offsets - 1])
+        if not 0 < first < len(graph.points) - 1 or first in tips:
+            raise ValueError("cut")
+        return
+    there = min(first, second) >= 0 and max(first, second) < 2 * graph.branch_count
+    if not there or first == second:
+        raise ValueError("join")
+    if (graph.degrees[graph.half_vertex[[first, second]]] != 1).any():
+        raise ValueError("join")
 
 
 class Place(NamedTuple):
@@ -63,7 +122,7 @@ def cut_branch(graph: PlanarGraph, routing: Routing, point: int) -> tuple[Planar
     number[far] = new
     partner = np.arange(2 * last + 2, dtype=np.int32)
     partner[number] = number[routing.partner]
-    return changed, _with_corner(routing, number, partner, (far, new - 1), ())
+    return changed, _with_corner(changed, routing, number, partner, (far, new - 1), ())
 
 
 def join_ends(graph: PlanarGraph, routing: Routing, a: int, b: int) -> tuple[PlanarGraph, Routing]:
@@ -92,7 +151,7 @@ def join_ends(graph: PlanarGraph, routing: Routing, a: int, b: int) -> tuple[Pla
     partner = routing.partner.copy()
     partner[a], partner[b] = b, a
     pair = (min(a, b), max(a, b))
-    return changed, _with_corner(routing, number, partner, pair, (pair,))
+    return changed, _with_corner(changed, routing, number, partner, pair, (pair,))
 
 
 def _ordered(graph: PlanarGraph, order: Array) -> PlanarGraph:
@@ -109,10 +168,19 @@ def _unseen(graph: PlanarGraph) -> Array | None:
 
 
 def _with_corner(
-    routing: Routing, number: Array, partner: Array, pair: Pair, chosen: tuple[Pair, ...]
+    graph: PlanarGraph,
+    routing: Routing,
+    number: Array,
+    partner: Array,
+    pair: Pair,
+    chosen: tuple[Pair, ...],
 ) -> Routing:
     """The routing with one corner more, decided and locked; half-branches have new numbers."""
-    pairs = np.sort(number[routing.pairs], axis=1)
+    pairs = np.concatenate([np.sort(number[routing.pairs], axis=1), [pair]]).astype(np.int32)
+    place = np.full(len(graph.vertices), -1)
+    place[graph.places] = np.arange(len(graph.places))
+    # Place by place, as `candidate_pairs` has them: new numbers are in another order.
+    order = np.lexsort((pairs[:, 1], pairs[:, 0], place[graph.half_vertex[pairs[:, 0]]]))
     ways = tuple(
         tuple(
             Alternative(
@@ -126,8 +194,8 @@ def _with_corner(
     other = () if chosen else (pair,)
     return Routing(
         partner=partner.astype(np.int32),
-        pairs=np.concatenate([pairs, [pair]]).astype(np.int32),
-        pair_score=np.append(routing.pair_score, np.float32(0.0)),
+        pairs=pairs[order],
+        pair_score=np.append(routing.pair_score, np.float32(0.0))[order],
         alternatives=(*ways, (Alternative(chosen, 0.5), Alternative(other, 0.5))),
         locked=np.append(routing.locked, True),
     )

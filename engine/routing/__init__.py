@@ -8,18 +8,22 @@ junction follows, with its ranked alternatives.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 
 import numpy as np
 
 from ..errors import InvoluteError
 from ..graph.topology import joined
+from ..involution import best_matching, pairs_of
 from ..settings import Settings
 from ..values import Array, Pair, PlanarGraph, Routing
 from . import lifting
 from .alternatives import ranked_alternatives
 from .candidates import candidate_pairs
+from .neighbourhood import Neighbourhood
 
 Fixed = Mapping[int, tuple[Pair, ...]]
+_HEARD = 1e-3  # log-odds; smaller changes are those of rounding
 Scorer = Callable[[PlanarGraph, Array, Fixed], Array]
 
 
@@ -54,6 +58,64 @@ def route(graph: PlanarGraph, settings: Settings, fixed: Fixed | None = None) ->
     locked = np.zeros(len(graph.places), bool)
     locked[list(fixed)] = True
     return Routing(partner, pairs, np.asarray(score, np.float32), alternatives, locked)
+
+
+def rescored(
+    graph: PlanarGraph, routing: Routing, pair_score: Array, keep: Fixed, only: Array | None = None
+) -> Routing:
+    """A routing with other log-odds, the ranks and probabilities of all ways to route that follow.
+
+    Args:
+        pair_score: (K,) in the order of its pairs.
+        keep: as in `ranked_alternatives`.
+        only: numbers of the places whose log-odds are others; None = all.
+    """
+    ways = ranked_alternatives(graph, pair_score, keep, only)
+    if only is not None:
+        changed = set(only.tolist())
+        known = zip(ways, routing.alternatives, strict=True)
+        ways = tuple(new if k in changed else old for k, (new, old) in enumerate(known))
+    return replace(routing, pair_score=np.asarray(pair_score, np.float32), alternatives=ways)
+
+
+def taught(
+    graph: PlanarGraph, routing: Routing, before: Fixed, after: Fixed, settings: Settings
+) -> tuple[Array, Array]:
+    """What decisions teach about the junctions around them.
+
+    The scorer looks at the neighbourhood twice, with the decisions of before and of after: the
+    difference counts, so that it does not matter that it sees no more of the page.
+
+    Args:
+        graph: in working pixels.
+        before, after: what is decided; they differ at a few junctions.
+
+    Returns:
+        (K,) float32 log-odds of all pairs, and the numbers of the junctions where they changed.
+    """
+    differ = {j for j in {*before, *after} if before.get(j) != after.get(j)}
+    centers = np.array([j for j in sorted(differ) if j < len(graph.junctions)], np.int64)
+    part = Neighbourhood.of(graph, graph.junctions[centers])
+    heard = np.isin(graph.places, part.near)
+    rows = np.flatnonzero(heard[place_of_pairs(graph, routing.pairs)])
+    if not len(centers) or not len(rows):
+        return routing.pair_score, np.zeros(0, np.int64)
+    pairs = part.number[routing.pairs[rows]]
+    old, new = (
+        _at_junctions(part.graph, pairs, part.fixed(graph, fixed), settings)
+        for fixed in (before, after)
+    )
+    score = routing.pair_score.copy()
+    score[rows] += new - old
+    moved = rows[np.abs(new - old) > _HEARD]
+    return score, np.unique(place_of_pairs(graph, routing.pairs[moved]))
+
+
+def place_of_pairs(graph: PlanarGraph, pairs: Array) -> Array:
+    """(K,) int: the number of the place at which the half-branches of each pair meet."""
+    number = np.full(len(graph.vertices), -1)
+    number[graph.places] = np.arange(len(graph.places))
+    return number[graph.half_vertex[pairs[:, 0]]]
 
 
 def with_corners(routing: Routing, graph: PlanarGraph) -> Routing:
@@ -107,6 +169,26 @@ def scorer_for(settings: Settings) -> Scorer:
     if settings.router == "network" or network.available():
         return by_network
     return by_geometry
+
+
+def around(halves: Array, routing: Routing, pairs: set[Pair]) -> tuple[Pair, ...]:
+    """The best way to route a junction in which some pairs are joined in any case.
+
+    Args:
+        halves: (d,) the half-branches there. pairs: each a < b.
+
+    Raises:
+        InvoluteError: a half-branch is in two of the pairs.
+    """
+    taken = [half for pair in pairs for half in pair]
+    if len(set(taken)) != len(taken):
+        raise InvoluteError("A line can go on in one other only.")
+    free = np.setdiff1d(halves, taken)
+    score = np.zeros((len(free), len(free)))
+    here = np.isin(routing.pairs, free).all(1)
+    a, b = np.searchsorted(free, routing.pairs[here]).T
+    score[a, b] = score[b, a] = routing.pair_score[here]
+    return tuple(sorted([*pairs, *pairs_of(best_matching(score), free)]))
 
 
 def checked_pairs(graph: PlanarGraph, junction: int, pairs: tuple[Pair, ...]) -> tuple[Pair, ...]:

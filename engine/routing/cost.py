@@ -10,13 +10,14 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..values import Array, Junction, PlanarGraph, Stroke
+from ..values import Array, PlanarGraph, Routing, Stroke
+from .ways import Ways
 
 
-def costs(graph: PlanarGraph, strokes: Sequence[Stroke], junctions: Sequence[Junction]) -> Array:
-    """(J,) px: doubt of each junction times the length of stroke that another answer moves."""
-    beyond = lengths_beyond(graph, strokes)
-    return np.array([_cost(junction, beyond) for junction in junctions], np.float64)
+def costs(graph: PlanarGraph, routing: Routing, strokes: Sequence[Stroke]) -> Array:
+    """(J,) px: doubt of each junction times the length of stroke that the likeliest other answer
+    moves; the longest of the parts that change stays in place."""
+    return Ways.of(graph, routing).costs(routing, lengths_beyond(graph, strokes))
 
 
 def lengths_beyond(graph: PlanarGraph, strokes: Sequence[Stroke]) -> Array:
@@ -39,13 +40,3 @@ def lengths_beyond(graph: PlanarGraph, strokes: Sequence[Stroke]) -> Array:
     found[halves] = whole - (before - first)
     found[halves ^ 1] = before - first + lengths[halves >> 1]
     return found
-
-
-def _cost(junction: Junction, beyond: Array) -> float:
-    """Against the likeliest other answer; the longest of the parts that change stays in place."""
-    others = [way.pairs for way in junction.alternatives if way.pairs != junction.pairs]
-    if junction.locked or not others:
-        return 0.0
-    now, then = (dict((*pairs, *(p[::-1] for p in pairs))) for pairs in (junction.pairs, others[0]))
-    changed = [beyond[h] for h in junction.half_branches if now.get(h) != then.get(h)]
-    return junction.doubt * (sum(changed) - max(changed, default=0.0))

@@ -11,6 +11,7 @@ import numpy as np
 from ...engine import InvoluteError
 from ..language import message
 from . import cels, state
+from .core.regraphed import regraphed
 from .core.splice import Edit, plan
 from .core.stroke_arrays import TRACE, column, concatenate
 from .vertex_weights import with_weights
@@ -42,9 +43,10 @@ def change_routing(
     new = state.settled(data, key, how(trace.drawing))
     layers, shown = zip(*cels.cels_at(data, frame), strict=True)
     edits = []
-    if (new.routing.partner != trace.drawing.routing.partner).any():
+    old = regraphed(trace.drawing, new)
+    if (new.routing.partner != old.routing.partner).any():
         there = with_weights(data, frame, [cels.read(cel) for cel in shown])
-        edits = plan(trace.drawing, new, there, key, trace.pixel_map)
+        edits = plan(old, new, there, key, trace.pixel_map)
         _need_open(layers, edits)
     own = state.own_key(data, frame, trace)
     for cel, edit in zip(shown, edits, strict=False):

@@ -26,7 +26,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...engine import InvoluteError
-from . import cels, stored_trace
+from . import cels, change, stored_trace
 from .core.map_fit import fitted
 from .core.pixel_map import PixelMap
 from .core.stroke_arrays import HALF, ROUTING, TRACE
@@ -126,9 +126,7 @@ def settled(data: bpy.types.ID, key: int, drawing: Drawing) -> Drawing:
     """
     with reading():
         base = stored_trace.base_of(_entry(data, key))
-    if not stored_trace.differs_in_routing_only(base, drawing):
-        return drawing
-    return base.with_routing(drawing.routing.partner, drawing.routing.locked)
+    return change.again(base, drawing) if change.can_be_told(base, drawing) else drawing
 
 
 def check_writable(data: bpy.types.ID) -> None:
@@ -158,7 +156,7 @@ def store(data: bpy.types.ID, frame: int, before: Trace, after: Trace) -> Trace:
     """
     entry = _entry(data, before.key)
     base = stored_trace.base_of(entry)
-    if stored_trace.differs_in_routing_only(base, after.drawing):
+    if change.can_be_told(base, after.drawing):
         entry, stamp = stored_trace.rerouted(
             entry, before.drawing, after.drawing, after.pixel_map, before.stamp
         )

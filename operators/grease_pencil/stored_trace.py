@@ -1,7 +1,7 @@
 """How one trace is kept in the ID property: encoding, and decoding with every check.
 
     {"drawing": bytes, "base": str,      the engine's own JSON, compressed, and its hash
-     "routing": bytes, "stamp": str,     what was rerouted and locked since; hash of it all
+     "routing": bytes, "stamp": str,     what was changed since (see `change`); hash of it all
      "earlier": {stamp: bytes},          routings that undo may bring back, as differences
      "unmarked": str,                    stamp that strokes without a mark have; missing = "stamp"
      "placement": 9 floats, "source": str}
@@ -21,6 +21,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...engine import InvoluteError
+from . import change
 from .core.pixel_map import PixelMap
 
 if TYPE_CHECKING:
@@ -116,9 +117,9 @@ def drawing_of(entry: Any, stamp: str) -> Drawing:
             routing = _bytes(entry, "routing")
             if stamp != _hash(_text(entry, "base").encode() + routing):
                 raise ValueError("stamp")
-            drawing = _with_routing(base, routing)
+            drawing = change.applied(base, routing, differs=False)
         else:
-            drawing = _with_difference(base, _bytes(entry["earlier"], stamp))
+            drawing = change.applied(base, _bytes(entry["earlier"], stamp), differs=True)
         remember(stamp, drawing)
     return drawing
 
@@ -135,7 +136,7 @@ def base_of(entry: Any) -> Drawing:
             raise ValueError("base")
         inflate = zlib.decompressobj()
         drawing = drawing_json.read(inflate.decompress(blob, _MOST_TEXT).decode("utf-8"))
-        remember(base, drawing)
+    remember(base, drawing)  # each decision needs it, and brings a drawing of its own
     return drawing
 
 
@@ -160,12 +161,13 @@ def rerouted(
     Args:
         before, stamp_before: the routing that it had until now, which undo may bring back.
     """
-    base, routing = base_of(entry), _routing_of(drawing)
+    base = base_of(entry)
+    routing = change.packed(base, drawing, differs=False)
     stamp = _hash(_text(entry, "base").encode() + routing)
     earlier = dict(entry["earlier"].items()) if "earlier" in entry else {}
     for known, one in ((stamp_before, before), (stamp, drawing)):
         earlier.pop(known, None)
-        earlier[known] = _difference(base, one)
+        earlier[known] = change.packed(base, one, differs=True)
     changed = {name: entry[name] for name in ("drawing", "base", "source")}
     changed |= {"routing": routing, "stamp": stamp, "placement": pixel_map.as_list()}
     changed["earlier"] = dict(list(earlier.items())[-_MAX_EARLIER:])
@@ -174,63 +176,12 @@ def rerouted(
     return changed, stamp
 
 
-def differs_in_routing_only(base: Drawing, drawing: Drawing) -> bool:
-    """Was the drawing made from that one by rerouting and locking? Then all else is shared."""
-    return (
-        base.graph is drawing.graph
-        and base.routing.alternatives is drawing.routing.alternatives
-        and base.fills is drawing.fills
-    )
-
-
 def remember(stamp: str, drawing: Drawing) -> None:
     """Keep a drawing for the next look-up of its stamp."""
     _decoded[stamp] = drawing
     _decoded.move_to_end(stamp)
     while len(_decoded) > _MAX_DECODED:
         _decoded.popitem(last=False)
-
-
-def _routing_of(drawing: Drawing) -> bytes:
-    """What rerouting and locking change: partners as int32, then locks as bits, compressed."""
-    routing = drawing.routing
-    partner = routing.partner.astype("<i4").tobytes()
-    return zlib.compress(partner + np.packbits(routing.locked).tobytes(), 3)
-
-
-def _difference(base: Drawing, drawing: Drawing) -> bytes:
-    """The same against the drawing as it was traced: a few dozen bytes."""
-    old, new = base.routing, drawing.routing
-    partner = (old.partner ^ new.partner).astype("<i4").tobytes()
-    return zlib.compress(partner + np.packbits(old.locked ^ new.locked).tobytes(), 3)
-
-
-def _with_routing(base: Drawing, routing: bytes) -> Drawing:
-    return base if not routing else _checked(base, *_unpacked(base, routing))
-
-
-def _with_difference(base: Drawing, difference: bytes) -> Drawing:
-    partner, locked = _unpacked(base, difference)
-    return _checked(base, partner ^ base.routing.partner, locked ^ base.routing.locked)
-
-
-def _unpacked(base: Drawing, packed: bytes) -> tuple[Array, Array]:
-    """Partners and locks of `_routing_of`."""
-    halves, junctions = len(base.routing.partner), len(base.routing.locked)
-    size = 4 * halves + -(-junctions // 8)
-    raw = zlib.decompressobj().decompress(packed, size + 1)
-    if len(raw) != size:
-        raise ValueError("routing")
-    partner = np.frombuffer(raw, "<i4", halves).astype(np.int32)
-    bits = np.unpackbits(np.frombuffer(raw, np.uint8, offset=4 * halves))
-    return partner, bits[:junctions].astype(bool)
-
-
-def _checked(base: Drawing, partner: Array, locked: Array) -> Drawing:
-    from ...engine.soundness import check_involution
-
-    check_involution(base.graph, partner)
-    return base.with_routing(partner, locked)
 
 
 def _hash(content: bytes) -> str:

@@ -55,7 +55,7 @@ class CardChoice(JunctionOperator):
         if event.type == "MOUSEMOVE":
             self._point(context, shown, mouse)
             return {"RUNNING_MODAL"}
-        if event.value != "PRESS" or event.ctrl or event.oskey:
+        if event.value != "PRESS" or event.ctrl or event.oskey or event.shift:
             return {"PASS_THROUGH"}
         if event.type == "LEFTMOUSE":
             card = card_at(cards_of(context, shown)[0], *mouse)

@@ -1,4 +1,4 @@
-"""Drag from one line to another to join them; Ctrl-click a line to end it at its junction."""
+"""Drag along a line to route it, to another one or from end to end to join them."""
 
 from __future__ import annotations
 
@@ -6,86 +6,58 @@ import bpy
 import numpy as np
 
 from ..language import message
-from ..view.on_screen import halves_under
+from ..view.following import followed
+from ..view.on_screen import end_under, halves_under, junction_of, line_under
 from ..view.picking import nearest_pair
-from ..view.view_state import Shown, make_current, redraw, view_of
-from .junction_operator import JunctionOperator
+from ..view.view_state import make_current
+from .path_gesture import PathGesture, on_page
 
 
-class INVOLUTE_OT_drag_join(JunctionOperator, bpy.types.Operator):
-    """Drag from one line to another that meets it at a junction to join them"""
+class INVOLUTE_OT_drag_join(PathGesture, bpy.types.Operator):
+    """Drag along a line to let one stroke follow it, from line to line or end to end to join"""
 
     bl_idname = "involute.drag_join"
     bl_label = "Drag to Join"
-    bl_options = {"INTERNAL"}  # the joining itself is the step to undo
 
-    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Begin at the line under the mouse; elsewhere the drag belongs to others."""
-        if context.region_data is None:
-            return {"CANCELLED"}
-        region = context.region
-        start = event.mouse_prev_press_x - region.x, event.mouse_prev_press_y - region.y
-        found = halves_under(context, start)
-        if found is None:
-            return {"PASS_THROUGH"}
-        shown, self._first = found
-        make_current(context, shown, _junction_of(shown, min(self._first, key=self._first.get)))
-        shown.view.drag = (*start, event.mouse_region_x, event.mouse_region_y)
-        context.window_manager.modal_handler_add(self)
-        return {"RUNNING_MODAL"}
-
-    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Draw the line of the drag; where it ends, join."""
-        view = view_of(context)
-        mouse = event.mouse_region_x, event.mouse_region_y
-        if event.type == "MOUSEMOVE":
-            view.drag = (*view.drag[:2], *mouse)
-            redraw(context)
-            return {"RUNNING_MODAL"}
-        if event.type in {"ESC", "RIGHTMOUSE"}:
-            return self._leave(context, {"CANCELLED"})
-        if event.type != "LEFTMOUSE" or event.value != "RELEASE":
-            return {"RUNNING_MODAL"}
+    def begins_at(self, context: bpy.types.Context, mouse: tuple[float, float]) -> bool:
+        """Only a drag that begins at a line is ours."""
         found = halves_under(context, mouse)
-        self._leave(context, {"FINISHED"})
+        if found is None:
+            self._first = {}
+            return line_under(context, mouse) is not None or end_under(context, mouse) is not None
+        shown, self._first = found
+        make_current(context, shown, junction_of(shown, min(self._first, key=self._first.get)))
+        return True
+
+    def drawn(self, context: bpy.types.Context, places: np.ndarray) -> set[str]:
+        """A path along lines routes; else its two ends say what is joined."""
+        shown = line_under(context, tuple(places[0]))
+        if shown is not None:
+            make_current(context, shown, -1)
+            path, radius = on_page(context, shown, places)
+            line = np.array([item["loc"] for item in path])
+            if len(followed(shown.trace.drawing.graph, line, radius)) >= 2:
+                return bpy.ops.involute.route_along("EXEC_DEFAULT", True, path=path, radius=radius)
+        ends = [end_under(context, tuple(place)) for place in (places[0], places[-1])]
+        if all(ends) and ends[0][1] != ends[1][1] and ends[0][0].object == ends[1][0].object:
+            make_current(context, ends[0][0], -1)
+            pair = ends[0][1], ends[1][1]
+            return bpy.ops.involute.join("EXEC_DEFAULT", True, first=pair[0], second=pair[1])
+        return self._join_near(context, tuple(places[-1]))
+
+    def _join_near(self, context: bpy.types.Context, mouse: tuple[float, float]) -> set[str]:
+        found = halves_under(context, mouse)
         vertex = found[0].trace.drawing.graph.half_vertex if found else None
         pair = nearest_pair(self._first, found[1], vertex) if found else None
         if pair is None:
-            said = message("Drag from one line to another that meets it at a junction.")
+            said = message(
+                "Drag along a line, from one line to another that meets it at a junction, or from "
+                "one end to another."
+            )
             self.report({"INFO"}, said)
             return {"CANCELLED"}
-        make_current(context, found[0], _junction_of(found[0], pair[0]))
+        make_current(context, found[0], junction_of(found[0], pair[0]))
         return bpy.ops.involute.join("EXEC_DEFAULT", True, first=pair[0], second=pair[1])
 
-    def _leave(self, context: bpy.types.Context, result: set[str]) -> set[str]:
-        view_of(context).drag = (0, 0, 0, 0)
-        redraw(context)
-        return result
 
-
-class INVOLUTE_OT_separate_under_mouse(JunctionOperator, bpy.types.Operator):
-    """End the line under the mouse at its junction"""
-
-    bl_idname = "involute.separate_under_mouse"
-    bl_label = "Separate Line"
-    bl_options = {"INTERNAL"}
-
-    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        """Separate the line under the mouse."""
-        if context.region_data is None:
-            return {"CANCELLED"}
-        found = halves_under(context, (event.mouse_region_x, event.mouse_region_y))
-        if found is None:
-            return {"PASS_THROUGH"}
-        shown, near = found
-        half = min(near, key=near.get)
-        make_current(context, shown, _junction_of(shown, half))
-        return bpy.ops.involute.separate("EXEC_DEFAULT", True, half=half)
-
-
-def _junction_of(shown: Shown, half: int) -> int:
-    graph = shown.trace.drawing.graph
-    return int(np.searchsorted(graph.junctions, graph.half_vertex[half]))
-
-
-CLASSES = (INVOLUTE_OT_drag_join, INVOLUTE_OT_separate_under_mouse)
+CLASSES = (INVOLUTE_OT_drag_join,)

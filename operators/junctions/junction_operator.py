@@ -56,7 +56,7 @@ class JunctionOperator:
         if not 0 <= index < len(shown.table):
             self.report({"ERROR"}, message("Choose a junction first."))
             return {"CANCELLED"}
-        ways = shown.trace.drawing.junctions[index].alternatives
+        ways = shown.trace.drawing.routing.alternatives[index]
         if alternative >= len(ways):
             said = message("This junction has {count} alternatives.", count=len(ways))
             self.report({"ERROR"}, said)

@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
 import bpy
 import numpy as np
 
 from ..language import label, message
+from ..view.alike import decided_alike
 from ..view.on_screen import junction_under
 from ..view.view_state import Shown, make_current, redraw, select, shown_in, view_of
 from .card_choice import CardChoice
 from .go_to_junction import look_at
+
+if TYPE_CHECKING:
+    from ...engine import Drawing
 
 _LONG = 0.05  # of the drawing's longer side; a stroke part that costs more is a long one
 
@@ -26,9 +33,9 @@ class INVOLUTE_OT_review(CardChoice, bpy.types.Operator):
         if context.region_data is None:
             return {"CANCELLED"}
         self._passed: list[int] = []  # junctions that were decided or skipped, in order
+        self._settled = 0  # doubts that went when others were decided
         shown = shown_in(context)
-        self._total = len(open_doubts(shown, ()))
-        if self._total == 0:
+        if len(open_doubts(shown, ())) == 0:
             self.report({"INFO"}, message("No junction is doubtful any more."))
             return {"CANCELLED"}
         self._show(context, shown, int(open_doubts(shown, ())[0]))
@@ -42,9 +49,8 @@ class INVOLUTE_OT_review(CardChoice, bpy.types.Operator):
     def decide(self, context: bpy.types.Context, shown: Shown, alternative: int) -> set[str]:
         """Apply, and go on with the next."""
         index = shown.junction.index
-        if self.apply_alternative(context, index, alternative) == {"FINISHED"}:
-            bpy.ops.ed.undo_push(message="Review Junctions")
-        return self._go_on(context, index)
+        pairs = shown.junction.alternatives[alternative].pairs
+        return self._decided(context, shown, lambda drawing: drawing.reroute(index, pairs))
 
     def accept(self, context: bpy.types.Context, shown: Shown) -> set[str]:
         """The routing in force is right: lock it, and go on."""
@@ -53,9 +59,7 @@ class INVOLUTE_OT_review(CardChoice, bpy.types.Operator):
     def lock(self, context: bpy.types.Context, shown: Shown) -> set[str]:
         """Lock the junction as it is, and go on."""
         index = shown.junction.index
-        if self.change(context, lambda drawing: drawing.lock(index)) == {"FINISHED"}:
-            bpy.ops.ed.undo_push(message="Review Junctions")
-        return self._go_on(context, index)
+        return self._decided(context, shown, lambda drawing: drawing.lock(index))
 
     def click_elsewhere(
         self, context: bpy.types.Context, shown: Shown, mouse: tuple[float, float]
@@ -68,18 +72,46 @@ class INVOLUTE_OT_review(CardChoice, bpy.types.Operator):
         return {"RUNNING_MODAL"}
 
     def other_key(self, context: bpy.types.Context, shown: Shown, key: str) -> set[str]:
-        """Backspace goes back to the junction before, Space and N skip one."""
+        """Backspace goes back to the junction before, Space and N skip one, S decides all that are
+        like it as well."""
+        index = shown.junction.index
         if key in {"SPACE", "N"}:
-            return self._go_on(context, shown.junction.index)
+            return self._go_on(context, index)
+        if key == "S":
+            pairs = shown.junction.pairs
+            if shown.view.preview >= 0:
+                pairs = shown.junction.alternatives[shown.view.preview].pairs
+            return self._decided(context, shown, lambda d: decided_alike(d, index, pairs))
         if key != "BACK_SPACE":
             return {"PASS_THROUGH"}
         if self._passed:
             before = self._passed.pop()
             if shown.table.locked[before]:
-                self.change(context, lambda drawing: drawing.unlock(before))
-                bpy.ops.ed.undo_push(message="Review Junctions")
+                self._change(context, lambda drawing: drawing.unlock(before))
             self._show(context, shown_in(context), before)
         return {"RUNNING_MODAL"}
+
+    def _decided(
+        self, context: bpy.types.Context, shown: Shown, how: Callable[[Drawing], Drawing]
+    ) -> set[str]:
+        """Decide, ask again what lies around it, count what that settled, and go on."""
+        index = shown.junction.index
+        open_before = open_doubts(shown, (index,))
+        if self._change(context, how):
+            left = open_doubts(shown_in(context), ())
+            self._settled += len(np.setdiff1d(open_before, left))
+        return self._go_on(context, index)
+
+    def _change(self, context: bpy.types.Context, how: Callable[[Drawing], Drawing]) -> bool:
+        """One step to undo: a decision, and what it teaches about the junctions around it."""
+
+        def asked(drawing: Drawing) -> Drawing:
+            return how(drawing).ask_around(drawing)
+
+        if self.change(context, asked) != {"FINISHED"}:
+            return False
+        bpy.ops.ed.undo_push(message="Review Junctions")
+        return True
 
     def _go_on(self, context: bpy.types.Context, passed: int) -> set[str]:
         self._passed.append(passed)
@@ -101,12 +133,15 @@ class INVOLUTE_OT_review(CardChoice, bpy.types.Operator):
     def _status(self, shown: Shown) -> str:
         left = open_doubts(shown, self._passed)
         long = _LONG * max(shown.trace.drawing.size)
+        number = len(self._passed) + 1
         return label(
-            "{number} of {all}, {long} long strokes left: digit or click decides, Enter accepts, "
-            "Space skips, Backspace goes back, Esc leaves",
-            number=min(len(self._passed) + 1, self._total),
-            all=self._total,
+            "{number} of {all}, {long} long strokes left, {settled} settled by your decisions: "
+            "digit or click decides, Enter accepts, S decides all that are alike, Space skips, "
+            "Backspace goes back, Esc leaves",
+            number=number,
+            all=max(number, len(self._passed) + len(left)),
             long=int((shown.table.cost[left] > long).sum()),
+            settled=self._settled,
         )
 
 

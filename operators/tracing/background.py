@@ -11,8 +11,25 @@ from ..view.view_state import redraw_sidebars
 from .trace_settings import take_from_sidebar
 
 _TICK = 0.1  # seconds between two looks at the job
+_LAST_STEP = 5.0  # seconds that a trace is given to stop, where it looks up about every second
 # While one of these waits for the mouse, objects and undo steps must not come in between.
 _AT_WORK = ("TRANSFORM_OT", "GREASE_PENCIL_OT", "SCULPT_OT", "PAINT_OT", "MESH_OT", "CURVE_OT")
+
+
+_waiting: list[tuple[bpy.types.Timer, bool]] = []
+"""The timer of the operator that waits, and whether it shows its progress; at most one."""
+
+
+def _stop_waiting() -> None:
+    """Take back what Blender would go on doing and showing."""
+    manager = bpy.context.window_manager
+    for timer, shows_progress in _waiting:
+        manager.event_timer_remove(timer)
+        if shows_progress:
+            manager.progress_end()
+            for workspace in bpy.data.workspaces:
+                workspace.status_text_set(None)
+    _waiting.clear()
 
 
 def stage_of(job: jobs.Job) -> str:
@@ -58,7 +75,8 @@ class JobOperator:
         self._job.start()
         self._shown, self._repeats = "", False
         manager = context.window_manager
-        self._timer = manager.event_timer_add(_TICK, window=context.window)
+        timer = manager.event_timer_add(_TICK, window=context.window)
+        _waiting.append((timer, self.escape_cancels))
         if self.escape_cancels:
             manager.progress_begin(0, 100)
         manager.modal_handler_add(self)
@@ -123,10 +141,7 @@ class JobOperator:
         redraw_sidebars(context)
 
     def _stop(self, context: bpy.types.Context) -> None:
-        context.window_manager.event_timer_remove(self._timer)
-        if self.escape_cancels:
-            context.window_manager.progress_end()
-            context.workspace.status_text_set(None)
+        _stop_waiting()
         if jobs.current is self._job:
             jobs.current = None
         redraw_sidebars(context)
@@ -169,8 +184,9 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """End what is running: nobody will be there to take it."""
-    jobs.abandon()
+    """End what is running: nobody will be there to take it, and its files may be replaced."""
+    jobs.abandon(_LAST_STEP)
+    _stop_waiting()
     bpy.app.handlers.load_pre.remove(_abandon)
 
 

@@ -5,6 +5,8 @@ junction_table   all junctions of a drawing as arrays: lists and filters
 junction_words   how people read a junction: letters, arrows, percentages
 card_layout      where the cards of the alternatives lie (arithmetic)
 picking          projecting and picking (arithmetic)
+alike            which junctions look like one another (arithmetic)
+following        which lines a gesture follows (arithmetic)
 framing          look straight at a drawing
 on_screen        both, for what a region shows
 """

@@ -40,17 +40,17 @@ class JunctionTable:
         Args:
             halves: first half-branches of the strokes that are there; None = all are.
         """
-        junctions = drawing.junctions
-        positions = np.array([j.position for j in junctions], np.float32).reshape(-1, 2)
+        graph, routing = drawing.graph, drawing.routing
+        positions = graph.vertices[graph.junctions].astype(np.float32)
         if halves is not None:
             positions[~_passed(drawing, halves)] = np.nan
         return JunctionTable(
             positions,
-            np.array([j.degree for j in junctions], np.int32),
-            np.array([j.doubt for j in junctions], np.float32),
-            np.array([j.locked for j in junctions], bool),
+            graph.degrees[graph.junctions],
+            drawing.doubts.astype(np.float32),
+            routing.locked[: len(positions)],
             drawing.costs,
-            np.isin(np.arange(len(junctions)), drawing.doubtful),
+            np.isin(np.arange(len(positions)), drawing.doubtful),
         )
 
     def __len__(self) -> int:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .card_layout import Card, free_part, layout
-from .picking import distance_to_line, near_part, nearest, project
+from .picking import distance_to_line, near_part, nearest, project, unproject
 from .view_state import Shown, traced_in
 
 if TYPE_CHECKING:
@@ -25,6 +25,42 @@ def places_on_screen(context: bpy.types.Context, shown: Shown, points: np.ndarra
     matrix = np.array(context.region_data.perspective_matrix) @ np.array(shown.object.matrix_world)
     places = shown.pixel_map.to_object(points)
     return project(places, matrix, region.width, region.height)
+
+
+def places_on_page(context: bpy.types.Context, shown: Shown, places: np.ndarray) -> np.ndarray:
+    """The way back: pixels of the region -> (N, 2) pixels of the drawing, on its plane."""
+    region = context.region
+    matrix = np.array(context.region_data.perspective_matrix) @ np.array(shown.object.matrix_world)
+    lies = shown.pixel_map
+    plane = np.stack([lies.right, lies.down, lies.origin])
+    return unproject(places, matrix, plane, region.width, region.height)
+
+
+def radius_on_page(context: bpy.types.Context, shown: Shown, places: np.ndarray) -> float:
+    """How many pixels of the drawing a line may be away from a gesture.
+
+    Args:
+        places: (N, 2) of the gesture, px of the region.
+    """
+    middle = np.asarray(places, float).mean(0)
+    around = middle + np.array([(-0.5, 0), (0.5, 0), (0, -0.5), (0, 0.5)])
+    found = places_on_page(context, shown, around)
+    size = 0.5 * (np.linalg.norm(found[1] - found[0]) + np.linalg.norm(found[3] - found[2]))
+    return float(_LINE_RADIUS * context.preferences.system.ui_scale * size)
+
+
+def end_under(context: bpy.types.Context, mouse: Mouse) -> tuple[Shown, int] | None:
+    """The half-branch at the nearest end of a stroke."""
+    radius = _JUNCTION_RADIUS * context.preferences.system.ui_scale
+    for shown in traced_in(context):
+        drawing = shown.trace.drawing
+        partner = drawing.routing.partner
+        ends = np.flatnonzero(partner == np.arange(len(partner)))
+        places = drawing.graph.vertices[drawing.graph.half_vertex[ends]]
+        found = nearest(places_on_screen(context, shown, places), mouse, radius)
+        if found >= 0:
+            return shown, int(ends[found])
+    return None
 
 
 def junction_under(context: bpy.types.Context, mouse: Mouse) -> tuple[Shown, int] | None:
@@ -53,6 +89,22 @@ def halves_under(context: bpy.types.Context, mouse: Mouse) -> tuple[Shown, dict[
         if near:
             return shown, near
     return None
+
+
+def line_under(context: bpy.types.Context, mouse: Mouse) -> Shown | None:
+    """The drawing that has any line near the mouse."""
+    radius = _LINE_RADIUS * context.preferences.system.ui_scale
+    for shown in traced_in(context):
+        places = places_on_screen(context, shown, shown.trace.drawing.graph.points)
+        if nearest(places, mouse, radius) >= 0:
+            return shown
+    return None
+
+
+def junction_of(shown: Shown, half: int) -> int:
+    """The number of the junction at which a half-branch starts."""
+    graph = shown.trace.drawing.graph
+    return int(np.searchsorted(graph.junctions, graph.half_vertex[half]))
 
 
 def cards_of(context: bpy.types.Context, shown: Shown) -> tuple[list[Card], float]:

@@ -31,6 +31,25 @@ def project(points: Array, matrix: Array, width: float, height: float) -> Array:
     return (seen[:, :2] / depth[:, None] + 1.0) * (0.5 * width, 0.5 * height)
 
 
+def unproject(places: Array, matrix: Array, plane: Array, width: float, height: float) -> Array:
+    """Where places of a region lie on a plane: the way back of `project`.
+
+    Args:
+        places: (N, 2) pixels from the lower left corner.
+        plane: (3, 3) rows: one step along x, one along y, the origin; in the space of `matrix`.
+
+    Returns:
+        (N, 2) steps along x and y.
+    """
+    places = np.asarray(places, np.float64).reshape(-1, 2)
+    rows = matrix[[0, 1, 3]]
+    seen = rows[:, :3] @ np.asarray(plane, np.float64).T
+    seen[:, 2] += rows[:, 3]
+    clip = places / (0.5 * width, 0.5 * height) - 1.0
+    found = np.column_stack([clip, np.ones(len(clip))]) @ np.linalg.pinv(seen).T
+    return found[:, :2] / np.where(found[:, 2:] == 0, np.nan, found[:, 2:])
+
+
 def nearest(places: Array, mouse: tuple[float, float], radius: float) -> int:
     """The place nearest to the mouse within a radius; -1 when there is none."""
     distance = np.linalg.norm(places - np.asarray(mouse, float), axis=1)
@@ -38,6 +57,17 @@ def nearest(places: Array, mouse: tuple[float, float], radius: float) -> int:
         return -1
     best = int(np.nanargmin(distance))
     return best if distance[best] <= radius else -1
+
+
+def inside(places: Array, outline: Array) -> Array:
+    """(N,) bool: which places lie inside a closed outline (M, 2), by the even-odd rule."""
+    places = np.asarray(places, np.float64).reshape(-1, 2)
+    a, b = outline, np.roll(outline, -1, axis=0)
+    x, y = places[:, :1], places[:, 1:]
+    passes = (a[:, 1] > y) != (b[:, 1] > y)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        at = a[:, 0] + (y - a[:, 1]) / (b[:, 1] - a[:, 1]) * (b[:, 0] - a[:, 0])
+        return (passes & (x < at)).sum(1) % 2 == 1
 
 
 def distance_to_line(line: Array, mouse: tuple[float, float]) -> float:

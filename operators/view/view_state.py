@@ -11,9 +11,9 @@ import bpy
 import numpy as np
 from bpy.props import (
     BoolProperty,
+    CollectionProperty,
     EnumProperty,
     FloatProperty,
-    FloatVectorProperty,
     IntProperty,
 )
 
@@ -35,9 +35,7 @@ class INVOLUTE_PG_view(bpy.types.PropertyGroup):
         name="Preview", description="The alternative that is shown but not applied", default=-1
     )
     choosing: BoolProperty(name="Choosing", description="The cards of the alternatives are shown")
-    drag: FloatVectorProperty(
-        name="Drag", description="From where to where the mouse joins lines", size=4
-    )
+    trail: CollectionProperty(type=bpy.types.OperatorMousePath, options={"HIDDEN"})
     show_overlay: BoolProperty(
         name="Junction Overlay",
         description="Show junctions in the viewport, colored by doubt",
@@ -84,6 +82,13 @@ class INVOLUTE_PG_view(bpy.types.PropertyGroup):
     )
     list_page: IntProperty(name="Page", description="Page of the list", default=1, min=1)
 
+    @property
+    def trail_places(self) -> np.ndarray:
+        """(N, 2) where the mouse has drawn so far, px of the region."""
+        places = np.zeros(2 * len(self.trail), np.float32)
+        self.trail.foreach_get("loc", places)
+        return places.reshape(-1, 2)
+
 
 @dataclass(frozen=True, eq=False)
 class Shown:
@@ -115,7 +120,13 @@ class Shown:
         index = self.view.junction
         if self.view.key != self.trace.key or not 0 <= index < len(self.table):
             return None
-        return self.trace.drawing.junctions[index]
+        return self.trace.drawing.place(index)
+
+    @property
+    def has_corners(self) -> bool:
+        """Was the picture asked where the pen may have been lifted?"""
+        clues = self.trace.drawing.graph.clues
+        return clues is not None and len(clues) > 0
 
     @property
     def listed(self) -> np.ndarray:

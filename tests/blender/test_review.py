@@ -94,3 +94,58 @@ def test_colored_lines_lie_on_the_strokes(bpy, part, curve):
     assert len({tuple(color) for color in made.colors.round(3).tolist()}) == 3
     nothing = lines.stroke_lines([], key, {}, palette)
     assert len(nothing.points) == len(nothing.edges) == 0
+
+
+def test_a_decision_is_kept_with_what_it_taught(bpy, part):
+    """Asking around changes scores, alternatives and routing; the file has all of it."""
+    obj, _ = make(bpy, part, grid(part, 4))
+    bpy.context.view_layer.objects.active = obj
+    changing = part("operators.grease_pencil.routing_change")
+    state = part("operators.grease_pencil.state")
+    key = state.keys_at(obj.data, 1)[0]
+
+    def decide(drawing):
+        new = drawing.reroute(5, drawing.junctions[5].alternatives[1].pairs)
+        score = new.routing.pair_score.copy()
+        score[:40] += 0.75
+        return new.with_scores(score)
+
+    trace = changing.change_routing(obj.data, 1, key, decide)
+    part("operators.grease_pencil.stored_trace")._decoded.clear()
+    found = state.load(obj.data, key, 1).drawing
+    np.testing.assert_allclose(found.routing.pair_score, trace.drawing.routing.pair_score)
+    np.testing.assert_allclose(found.doubts, trace.drawing.doubts, atol=1e-6)
+    np.testing.assert_allclose(found.doubts, [j.doubt for j in found.junctions], atol=1e-9)
+
+
+def test_junctions_that_look_alike_are_decided_alike(bpy, part):
+    drawing = grid(part, 4)
+    decided = part("operators.view.alike").decided_alike
+    junction = drawing.junctions[5]
+    ends = tuple(junction.pairs[:1])  # one of the two lines ends here, from both sides
+    after = decided(drawing, 5, ends)
+    assert after.routing.locked[:16].all()
+    graph = drawing.graph
+    along = np.array([0, 0])
+    for place in after.junctions:
+        assert len(place.pairs) == 1
+        a, b = place.pairs[0]
+        way = graph.vertices[graph.half_vertex[a ^ 1]] - graph.vertices[graph.half_vertex[b ^ 1]]
+        along += np.abs(way) > 1
+    assert sorted(along.tolist()) == [0, 16]  # all in the direction of the first
+    locked = drawing.lock(3)
+    assert decided(locked, 5, ends).junctions[3].pairs == drawing.junctions[3].pairs
+    other = cross(part)
+    assert part("operators.view.alike").alike(other, 0, other.junctions[0].pairs) == []
+
+
+def test_what_is_enclosed_is_accepted(bpy, part):
+    obj, _ = make(bpy, part, grid(part, 4))
+    bpy.context.view_layer.objects.active = obj
+    outline = [(20, 20), (80, 20), (80, 60), (20, 60)]  # junctions at 30, 50, 70 and 90
+    path = [{"name": "", "loc": place, "time": 0.0} for place in outline]
+    assert bpy.ops.involute.accept_inside(path=path) == {"FINISHED"}
+    drawing = drawing_of(part, obj)
+    places = [j.position for j in drawing.junctions if j.locked]
+    assert sorted(places) == [(30, 30), (30, 50), (50, 30), (50, 50), (70, 30), (70, 50)]
+    assert bpy.ops.involute.accept_inside(path=path) == {"CANCELLED"}

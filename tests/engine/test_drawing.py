@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from involute.engine import Drawing, InvoluteError, Settings
 from involute.engine.drawing import DOUBTFUL
-from involute.engine.routing import route
+from involute.engine.routing import network, route
 from involute.engine.values import Scan
 
 from tests.engine.scribbles import scribbles
@@ -179,3 +179,26 @@ def test_a_blank_page_is_an_empty_drawing() -> None:
     assert drawing.junctions == ()
     assert drawing.doubtful == ()
     assert drawing.ask_again().strokes == ()
+
+
+@pytest.mark.skipif(not network.available(), reason="needs the routing network")
+def test_a_decision_teaches_its_neighbours_and_taking_it_back_unteaches_them(scribble) -> None:
+    graph, _ = scribble(7, 12)
+    settings = Settings(router="network", min_length=0.0)
+    scan = Scan(np.zeros((200, 200), np.float32), None, 1.0, (200, 200), 3.0)
+    drawing = Drawing.from_routing(graph, route(graph, settings), scan, settings)
+    number = max(drawing.junctions, key=lambda j: j.degree).index
+    other = drawing.place(number).alternatives[1].pairs
+    decided = drawing.reroute(number, other)
+    asked = decided.ask_around(drawing)
+    assert asked.place(number).pairs == other
+    assert asked.place(number).locked
+    np.testing.assert_allclose(asked.doubts, [j.doubt for j in asked.junctions], atol=1e-12)
+    changed = np.flatnonzero(asked.routing.pair_score != decided.routing.pair_score)
+    assert len(changed) < len(asked.routing.pairs)
+    for place in asked.junctions:
+        if not place.locked and place.alternatives != drawing.place(place.index).alternatives:
+            assert place.pairs == place.alternatives[0].pairs
+    back = asked.unlock(number).ask_around(asked)
+    np.testing.assert_allclose(back.routing.pair_score, drawing.routing.pair_score, atol=1e-4)
+    assert drawing.ask_around(drawing) is drawing

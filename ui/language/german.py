@@ -467,11 +467,7 @@ TEXTS = {
     "Second": "Zweite",
     "Number of a half-branch": "Nummer eines Halbzweigs",
     "Number of the other half-branch": "Nummer des anderen Halbzweigs",
-    "Only two lines that meet at one junction can be joined.": (
-        "Nur zwei Linien, die sich an einer Kreuzung treffen, lassen sich verbinden."
-    ),
     "Ends": "Endet",
-    "Separate Line": "Linie trennen",
     "Separate Lines": "Linien trennen",
     "Separate All Lines": "Alle Linien trennen",
     "End a line at its junction, or all lines of the current junction": (
@@ -479,24 +475,7 @@ TEXTS = {
     ),
     "Line": "Linie",
     "Number of the half-branch; -1 separates all": "Nummer des Halbzweigs; -1 trennt alle",
-    "End the line under the mouse at its junction": (
-        "Die Linie unter der Maus an ihrer Kreuzung enden lassen"
-    ),
     "Drag to Join": "Ziehen zum Verbinden",
-    "Drag from one line to another that meets it at a junction to join them": (
-        "Von einer Linie zu einer anderen ziehen, die sie an einer Kreuzung trifft, um sie zu "
-        "verbinden"
-    ),
-    "Drag from one line to another that meets it at a junction.": (
-        "Ziehe von einer Linie zu einer anderen, die sie an einer Kreuzung trifft."
-    ),
-    "Click a junction to choose among its alternatives\n"
-    "Drag from one line to another to join them\n"
-    "Ctrl-click or Alt-click a line to end it at its junction": (
-        "Eine Kreuzung anklicken, um unter ihren Möglichkeiten zu wählen\n"
-        "Von einer Linie zu einer anderen ziehen, um sie zu verbinden\n"
-        "Eine Linie mit Alt anklicken, um sie an ihrer Kreuzung enden zu lassen"
-    ),
     "Choose a junction first.": "Wähle zuerst eine Kreuzung.",
     "This junction has {count} alternatives.": "Diese Kreuzung hat {count} Möglichkeiten.",
     "Select a drawing that Involute has traced": (
@@ -526,8 +505,6 @@ TEXTS = {
     ),
     "Choosing": "Wählen",
     "The cards of the alternatives are shown": "Die Karten der Möglichkeiten werden gezeigt",
-    "Drag": "Ziehen",
-    "From where to where the mouse joins lines": "Von wo bis wo die Maus Linien verbindet",
     "Junction Overlay": "Kreuzungen einblenden",
     "Show junctions in the viewport, colored by doubt": (
         "Kreuzungen in der Ansicht zeigen, nach Zweifel gefärbt"
@@ -562,11 +539,6 @@ TEXTS = {
     ),
     "No junction is doubtful any more.": "Keine Kreuzung ist mehr zweifelhaft.",
     "A review needs a 3D viewport.": "Das Durchgehen braucht einen 3D-Viewport.",
-    "{number} of {all}, {long} long strokes left: digit or click decides, Enter accepts, "
-    "Space skips, Backspace goes back, Esc leaves": (
-        "{number} von {all}, noch {long} lange Striche: Ziffer oder Klick entscheidet, Enter nimmt "
-        "an, Leertaste überspringt, Rücktaste geht zurück, Esc beendet"
-    ),
     "Cost": "Kosten",
     "Doubt times the length of stroke that another answer changes": (
         "Zweifel mal Länge der Striche, die eine andere Antwort ändert"
@@ -616,5 +588,87 @@ TEXTS = {
     ),
     "The layer {name!r} is locked; unlock it to reroute.": (
         "Die Ebene {name!r} ist gesperrt; zum Neuverbinden entsperren."
+    ),
+    # gestures
+    "Cut Strokes": "Striche zerschneiden",
+    "Cut the strokes that a path crosses there; the cuts are decisions of yours and stay": (
+        "Die Striche zerschneiden, wo ein Weg sie kreuzt; die Schnitte sind deine Entscheidungen "
+        "und bleiben"
+    ),
+    "Decide all corners that you have not decided yourself anew": (
+        "Alle Ecken, die du nicht selbst entschieden hast, neu entscheiden"
+    ),
+    "Drag along a line to let one stroke follow it, from line to line or end to end to join": (
+        "An einer Linie entlang ziehen, damit ein Strich ihr folgt, von Linie zu Linie oder von "
+        "Ende zu Ende, um zu verbinden"
+    ),
+    "Drag along a line, from one line to another that meets it at a junction, or from one end to "
+    "another.": (
+        "Ziehe an einer Linie entlang, von einer Linie zu einer anderen, die sie an einer "
+        "Kreuzung trifft, oder von einem Ende zu einem anderen."
+    ),
+    "Draw along a line, over at least one junction.": (
+        "Zeichne an einer Linie entlang, über mindestens eine Kreuzung."
+    ),
+    "How far lines may lie from the path, in pixels of the scan": (
+        "Wie weit Linien vom Weg entfernt sein dürfen, in Pixeln des Scans"
+    ),
+    "Let one stroke follow a path; what else meets on its way is decided anew around it": (
+        "Einen Strich einem Weg folgen lassen; was sonst am Weg zusammentrifft, wird darum herum "
+        "neu entschieden"
+    ),
+    "Nobody looked for corners; trace again with Pen Lifts above -1.": (
+        "Ecken wurden nicht gesucht; ziehe noch einmal nach, mit „Absetzen“ über -1."
+    ),
+    "Only two lines that meet at one junction, or two ends, can be joined.": (
+        "Nur zwei Linien, die sich an einer Kreuzung treffen, oder zwei Enden lassen sich "
+        "verbinden."
+    ),
+    "Path": "Weg",
+    "Radius": "Umkreis",
+    "Route Along Path": "An einem Weg entlang führen",
+    "Set Pen Lifts": "Absetzen einstellen",
+    "Swipe to Cut": "Mit einem Wisch zerschneiden",
+    "The swipe crosses no stroke.": "Der Wisch kreuzt keinen Strich.",
+    "Where the cut runs, in pixels of the scan": "Wo der Schnitt verläuft, in Pixeln des Scans",
+    "Where the stroke is to run, in pixels of the scan": (
+        "Wo der Strich verlaufen soll, in Pixeln des Scans"
+    ),
+    "{count} strokes": "{count} Striche",
+    "Swipe across strokes to cut them there; a click on a line ends it at its junction": (
+        "Quer über Striche wischen, um sie dort zu zerschneiden; ein Klick auf eine Linie lässt "
+        "sie an ihrer Kreuzung enden"
+    ),
+    "Click a junction to choose among its alternatives\n"
+    "Drag along a line to let one stroke follow it; from line to line or end to end to "
+    "join\n"
+    "Ctrl-drag or Alt-drag across strokes to cut them\n"
+    "Ctrl-click or Alt-click a line to end it at its junction\n"
+    "Shift-drag around junctions to accept them; with Ctrl, too, a box": (
+        "Eine Kreuzung anklicken, um unter ihren Möglichkeiten zu wählen\n"
+        "An einer Linie entlang ziehen, damit ein Strich ihr folgt; von Linie zu Linie oder von "
+        "Ende zu Ende, um zu verbinden\n"
+        "Mit Strg oder Alt quer über Striche ziehen, um sie zu zerschneiden\n"
+        "Eine Linie mit Strg oder Alt anklicken, um sie an ihrer Kreuzung enden zu lassen\n"
+        "Mit Umschalt um Kreuzungen herum ziehen, um sie anzunehmen; mit Strg dazu einen Kasten"
+    ),
+    "Accept Inside": "Innerhalb annehmen",
+    "Box": "Kasten",
+    "Draw a box instead": "Stattdessen einen Kasten ziehen",
+    "Draw around junctions to accept them as they are": (
+        "Kreuzungen umfahren, um sie anzunehmen, wie sie sind"
+    ),
+    "Lasso to Accept": "Lasso zum Annehmen",
+    "Lock every junction inside an outline as it is": (
+        "Jede Kreuzung innerhalb eines Umrisses sperren, wie sie ist"
+    ),
+    "No open junction lies inside.": "Darin liegt keine offene Kreuzung.",
+    "The outline, in pixels of the scan": "Der Umriss, in Pixeln des Scans",
+    "{number} of {all}, {long} long strokes left, {settled} settled by your decisions: digit or "
+    "click decides, Enter accepts, S decides all that are alike, Space skips, Backspace goes "
+    "back, Esc leaves": (
+        "{number} von {all}, {long} lange Striche übrig, {settled} durch deine Entscheidungen "
+        "erledigt: Ziffer oder Klick entscheidet, Enter nimmt an, S entscheidet alle gleichen, "
+        "Leertaste überspringt, Rücktaste geht zurück, Esc beendet"
     ),
 }

@@ -73,10 +73,10 @@ def draw(context: bpy.types.Context, shown: Shown) -> None:
     gpu.state.blend_set("NONE")
 
 
-def draw_drag(context: bpy.types.Context, drag: tuple[float, float, float, float]) -> None:
-    """The line from where a drag began to the mouse."""
+def draw_trail(places: Array) -> None:
+    """The path of a drag so far, (N, 2) px of the region."""
     gpu.state.blend_set("ALPHA")
-    _draw_lines(_polylines([(np.reshape(drag, (2, 2)), (*LOOSE, 1.0))]), 2.0)
+    _draw_lines(_polylines([(places, (*LOOSE, 1.0))]), 2.0)
     gpu.state.blend_set("NONE")
 
 

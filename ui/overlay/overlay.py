@@ -50,13 +50,13 @@ def draw_rings_and_routes() -> None:
 
 
 def draw_labels() -> None:
-    """POST_PIXEL: letters, cards and the line of a drag."""
+    """POST_PIXEL: letters, cards and the path of a drag."""
     context = bpy.context
     if not _is_on(context) or context.region_data is None:
         return
-    drag = view_of(context).drag
-    if any(drag):
-        cards.draw_drag(context, tuple(drag))
+    trail = view_of(context).trail_places
+    if len(trail) > 1:
+        cards.draw_trail(trail)
     shown = _seen.pop(context.region.as_pointer(), None)
     if shown is not None:
         cards.draw(context, shown)

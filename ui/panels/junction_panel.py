@@ -72,6 +72,8 @@ class INVOLUTE_PT_junctions(_Sidebar, bpy.types.Panel):
         button = row.operator(INVOLUTE_OT_accept.bl_idname, text=said, translate=False)
         button.probability = certainty
         column.operator(INVOLUTE_OT_ask_again.bl_idname, icon="FILE_REFRESH")
+        if shown.has_corners:
+            self.layout.prop(shown.object, "involute_pen_lifts", slider=True)
 
 
 class INVOLUTE_PT_junction(_Sidebar, bpy.types.Panel):

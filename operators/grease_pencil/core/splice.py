@@ -229,11 +229,13 @@ def _check_nothing_lost(
 
 
 def _lengths(curves: Curves) -> Array:
-    """(n,) length of each stroke's polygon in object units, without a closing side."""
+    """(n,) length of each stroke's polygon in object units, round to the start of closed ones."""
     places = curves.point("position").reshape(-1, 3).astype(np.float64)
     steps = np.linalg.norm(np.diff(places, axis=0), axis=1)
     along = np.concatenate([[0.0], np.cumsum(steps)])
-    return along[curves.offsets[1:] - 1] - along[curves.offsets[:-1]]
+    first, last = curves.offsets[:-1], curves.offsets[1:] - 1
+    closing = np.linalg.norm(places[last] - places[first], axis=1) * curves.curve("cyclic")
+    return along[last] - along[first] + closing
 
 
 def _overlap(a: Piece, b: Piece) -> bool:

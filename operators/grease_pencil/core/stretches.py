@@ -70,10 +70,11 @@ def stretches_of(drawing: Drawing, index: int, changed: Array) -> Iterator[Stret
 
 def whole_length(stroke: Stroke) -> float:
     """The length of a stroke's polygon in pixels, with the closing side."""
-    return float(_corner_lengths(stroke)[-1])
+    return float(corner_lengths(stroke)[-1])
 
 
-def _corner_lengths(stroke: Stroke) -> Array:
+def corner_lengths(stroke: Stroke) -> Array:
+    """(N,) px: how far along a stroke its points lie, and its first one again if it is closed."""
     points = stroke.points.astype(np.float64)
     if stroke.closed:
         points = np.concatenate([points, points[:1]])
@@ -83,7 +84,7 @@ def _corner_lengths(stroke: Stroke) -> Array:
 
 def _lengths_at(graph: PlanarGraph, stroke: Stroke, cuts: list[int]) -> list[float]:
     """How far along the stroke its cuts lie: the cut k is where its half-branch k begins."""
-    lengths = _corner_lengths(stroke)
+    lengths = corner_lengths(stroke)
     whole, count = lengths[-1], len(stroke.branches)
     steps = np.array([_branch_length(graph, int(h) >> 1) for h in stroke.branches])
     expected = np.concatenate([[0.0], np.cumsum(steps)]) * (whole / max(steps.sum(), 1e-9))

@@ -1,0 +1,90 @@
+"""A few junctions with what their branches lead to, as a graph of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..values import Array, Pair, PlanarGraph
+from .windows import HOPS
+
+
+@dataclass(frozen=True, eq=False)
+class Neighbourhood:
+    """Part of a graph.
+
+    graph: the part; its corners and the clues of these are left out.
+    near: vertices of the whole graph within `HOPS` junctions of the middle, without the middle.
+    number: (2B,) half-branches of the whole graph -> those of the part, -1 = not in it.
+    vertex: (V,) the same for vertices.
+    """
+
+    graph: PlanarGraph
+    near: Array
+    number: Array
+    vertex: Array
+
+    @staticmethod
+    def of(graph: PlanarGraph, centers: Array) -> Neighbourhood:
+        """The neighbourhood of some vertices, with context: one junction more all around."""
+        inside = np.zeros(len(graph.vertices), bool)
+        inside[centers] = True
+        near = inside
+        for hop in range(HOPS + 1):
+            inside = _wider(graph, inside)
+            near = inside.copy() if hop == HOPS - 1 else near
+        near[centers] = False
+        branches = np.flatnonzero(inside[graph.ends].any(1))
+        vertices = np.unique(graph.ends[branches])
+        vertex = np.full(len(graph.vertices), -1)
+        vertex[vertices] = np.arange(len(vertices))
+        number = np.full(2 * graph.branch_count, -1)
+        number[np.stack([2 * branches, 2 * branches + 1], 1).reshape(-1)] = np.arange(
+            2 * len(branches)
+        )
+        points = np.concatenate(
+            [np.arange(graph.offsets[b], graph.offsets[b + 1]) for b in branches]
+            or [np.zeros(0, np.int64)]
+        )
+        sizes = np.diff(graph.offsets)[branches]
+        part = PlanarGraph(
+            graph.vertices[vertices],
+            graph.points[points],
+            np.concatenate([[0], np.cumsum(sizes)]).astype(np.int32),
+            vertex[graph.ends[branches]].astype(np.int32).reshape(-1, 2),
+            *(
+                None if values is None else values[points]
+                for values in (graph.widths, graph.strength, graph.colors)
+            ),
+        )
+        return Neighbourhood(part, np.flatnonzero(near), number, vertex)
+
+    def fixed(
+        self, whole: PlanarGraph, decided: Mapping[int, tuple[Pair, ...]]
+    ) -> dict[int, tuple[Pair, ...]]:
+        """What was decided at junctions that are whole in the part, in its numbers."""
+        found = {}
+        place = {int(v): k for k, v in enumerate(self.graph.junctions)}
+        for junction, pairs in decided.items():
+            at = int(whole.places[junction])
+            here = int(self.vertex[at])
+            if here in place and self.graph.degrees[here] == whole.degrees[at]:
+                found[place[here]] = tuple(
+                    tuple(sorted(self.number[list(pair)].tolist())) for pair in pairs
+                )
+        return found
+
+
+def _wider(graph: PlanarGraph, inside: Array) -> Array:
+    """What is one junction further on, along corners as if they were none."""
+    while True:
+        reached = inside.copy()
+        reached[graph.ends[inside[graph.ends].any(1)]] = True
+        fresh = reached & ~inside
+        through = fresh & (graph.degrees == 2)
+        if not through.any():
+            return reached
+        # Only the corners among what is new are walked through.
+        inside = inside | through

@@ -1,0 +1,75 @@
+"""Lock all junctions that a lasso or a box encloses."""
+
+from __future__ import annotations
+
+import bpy
+import numpy as np
+from bpy.props import BoolProperty, CollectionProperty
+
+from ..language import message
+from ..view.picking import inside
+from ..view.view_state import make_current, shown_in, traced_in, view_of
+from .junction_operator import JunctionOperator
+from .path_gesture import PathGesture, on_page, path_of
+
+
+class INVOLUTE_OT_accept_inside(JunctionOperator, bpy.types.Operator):
+    """Lock every junction inside an outline as it is"""
+
+    bl_idname = "involute.accept_inside"
+    bl_label = "Accept Inside"
+
+    path: CollectionProperty(
+        type=bpy.types.OperatorMousePath,
+        name="Path",
+        description="The outline, in pixels of the scan",
+        options={"SKIP_SAVE"},
+    )
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Lock them, and say how many there were."""
+        table = shown_in(context).table
+        there = inside(table.positions, path_of(self.path)) & ~table.locked
+        chosen = np.flatnonzero(there).tolist()
+        if not chosen:
+            self.report({"INFO"}, message("No open junction lies inside."))
+            return {"CANCELLED"}
+        result = self.change(context, lambda drawing: drawing.lock_all(chosen))
+        if result == {"FINISHED"}:
+            self.report({"INFO"}, message("{count} junctions accepted", count=len(chosen)))
+        return result
+
+
+class INVOLUTE_OT_lasso_accept(PathGesture, bpy.types.Operator):
+    """Draw around junctions to accept them as they are"""
+
+    bl_idname = "involute.lasso_accept"
+    bl_label = "Lasso to Accept"
+
+    box: BoolProperty(
+        name="Box", description="Draw a box instead", default=False, options={"SKIP_SAVE"}
+    )
+
+    def drawn(self, context: bpy.types.Context, places: np.ndarray) -> set[str]:
+        """Accept what is inside; of several drawings, the first that has something there."""
+        for shown in traced_in(context):
+            path, _ = on_page(context, shown, places)
+            outline = np.array([item["loc"] for item in path])
+            if (inside(shown.table.positions, outline) & ~shown.table.locked).any():
+                make_current(context, shown, shown.view.junction)
+                return bpy.ops.involute.accept_inside("EXEC_DEFAULT", True, path=path)
+        self.report({"INFO"}, message("No open junction lies inside."))
+        return {"CANCELLED"}
+
+    def _add(self, context: bpy.types.Context, place: tuple[float, float]) -> None:
+        trail = view_of(context).trail
+        if self.box and len(trail):
+            (x, y), (right, top) = trail[0].loc, place
+            trail.clear()
+            for corner in ((x, y), (right, y), (right, top), (x, top)):
+                trail.add().loc = corner
+            place = (x, y)
+        super()._add(context, place)
+
+
+CLASSES = (INVOLUTE_OT_accept_inside, INVOLUTE_OT_lasso_accept)
