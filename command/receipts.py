@@ -164,7 +164,7 @@ def forget_images() -> None:
     _content.cache_clear()
 
 
-@lru_cache(4)
+@lru_cache(4096)
 def _content(source: str, size: int, changed: int, status: int) -> str:
     """The hash of an image; remembered for a run: the images of a movie are in one file."""
     return digest(Path(source))

@@ -44,7 +44,7 @@ def several_pens(rng: Rng, strokes: Strokes, size: int) -> HardPage:
     length = np.array([np.hypot(*np.diff(line, axis=0).T).sum() for line in strokes])
     may = rng.permutation(np.flatnonzero(length > _LONG * broad))
     chosen = may[: int(rng.choice([0, 1, 1, 2, 3, 4]))]
-    rest = [line for k, line in enumerate(strokes) if k not in chosen]
+    rest = [line for k, line in enumerate(strokes) if k not in set(chosen.tolist())]
     wanted = _drawn(rng, [strokes[k] for k in chosen], str(rng.choice(_BROAD)), broad, size)
     other = _drawn(rng, rest, str(rng.choice(_FINE)), fine, size)
     for _ in range(rng.choice([0, 1, 2])):
@@ -72,7 +72,7 @@ def ruled_sheet(rng: Rng, strokes: Strokes, size: int) -> HardPage:
     pitch = float(np.exp(rng.uniform(*np.log(_RULED))))
     turn, half = rng.normal(0, 0.01), rng.uniform(0.6, 1.2)
     tone = rng.uniform(0.15, 0.45)
-    rules = np.zeros((size, size), np.float32)
+    rules: Array = np.zeros((size, size), np.float32)
     if kind != "drawn rows":
         rules = tone * _rules(size, pitch, turn, half, rng.uniform(0, pitch))
     if kind == "both sides":
@@ -88,8 +88,8 @@ def ruled_sheet(rng: Rng, strokes: Strokes, size: int) -> HardPage:
 def _drawn(rng: Rng, strokes: Strokes, medium: str, pen: float, size: int) -> Array:
     """(size, size) ink of some strokes; a fine pen is no wider than its lines lie apart."""
     lines = [line.astype(np.float32) for line in strokes if len(line) > 1]
-    samples = sample(lines, size) if lines else ()
-    if len(samples) < 2:
+    samples = sample(lines, size) if lines else None
+    if samples is None or len(samples) < 2:
         return np.zeros((size, size), np.float32)
     if pen < 6:
         pen = min(pen, max(1.2, 0.8 * line_spacing(samples, size)))

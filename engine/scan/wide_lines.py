@@ -124,7 +124,7 @@ def _lines(core: Array, deep: Array, radius: float, widest: float) -> tuple[Arra
     width = 2 * typical
     length = size / np.maximum(width, 1e-6)
     most = np.zeros(count)
-    np.maximum.at(most, of, half)
+    np.maximum.at(most, of.astype(np.int64), half)
     is_line = (length > _LONG * width) & (even > _EVEN * crest) & (width <= widest)
     is_line &= most < _SWOLLEN * typical
     is_line[0] = False
