@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from os import PathLike
+from pathlib import Path
 from time import perf_counter
 
 from .centerline import provider_for
@@ -26,6 +27,7 @@ from .scan.screentone import without_screentone
 from .scan.wide_lines import find_wide_lines
 from .settings import Settings
 from .values import Array
+from .vector_page import drawing_of_vectors, is_vector
 from .wide_pens import look_again
 
 Progress = Callable[[str, float], None]
@@ -54,7 +56,7 @@ def vectorize(
 
     Args:
         source: path of an image, or an (H, W), (H, W, 3) or (H, W, 4) array, 8 or 16 bit or float
-            in [0, 1].
+            in [0, 1]; or an .svg, whose lines are routed anew.
         settings: see `Settings`.
         progress: called as progress(stage, fraction of the whole); may raise `Cancelled`.
         page: which page of a TIFF with several.
@@ -68,6 +70,9 @@ def vectorize(
     """
     settings = settings or Settings()
     clock = _Clock(progress)
+    if is_vector(source):
+        with clock("graph"):
+            return drawing_of_vectors(Path(source), settings, vectorize)
     with clock("scan"):
         scan = set_aside(read_scan(source, settings, page=page), settings)
         scan = without_screentone(without_inks(scan, settings), settings)
