@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from itertools import accumulate
+from pathlib import Path
 from time import perf_counter
 from typing import Any, TypeVar
 
@@ -29,6 +30,7 @@ from .scan.screentone import without_screentone
 from .scan.wide_lines import WideLines, find_wide_lines
 from .settings import Settings
 from .values import Array, LineMaps, PlanarGraph, Pose, Routing, Scan
+from .vector_page import drawing_of_vectors, is_vector
 from .wide_pens import look_again
 
 Progress = Callable[[str, float], None]
@@ -60,7 +62,7 @@ def vectorize(
 
     Args:
         source: path of an image, or an (H, W), (H, W, 3) or (H, W, 4) array, 8 or 16 bit or float
-            in [0, 1].
+            in [0, 1]; or an .svg, whose lines are routed anew.
         settings: see `Settings`.
         progress: called as progress(stage, fraction of the whole); may raise `Cancelled`.
         page: which page of a TIFF with several.
@@ -78,7 +80,11 @@ def vectorize(
         Cancelled: the progress callback asked to stop.
     """
     clock = _Clock(progress)
-    drawing = _Trace(source, page, settings or Settings(), turn, clock, kept).drawing()
+    if is_vector(source):
+        with clock("graph"):
+            drawing = drawing_of_vectors(Path(source), settings or Settings(), vectorize)
+    else:
+        drawing = _Trace(source, page, settings or Settings(), turn, clock, kept).drawing()
     return drawing.with_seconds(clock.seconds)
 
 
