@@ -100,7 +100,8 @@ def in_fast(seed: int) -> tuple[bool, str]:
         _check([*_uv(), "venv", "--clear", "--python", _interpreter("3.11"), str(home)])
         install = [*_uv(), "pip", "install", "--python", str(_python(home))]
         # OpenCV 5 asks for numpy 2, and runs on what Blender brings.
-        _check([*install, f"--overrides={_numpy(home)}", "--editable", f"{ROOT}[fast,test]"])
+        what = [PYTEST, HYPOTHESIS, "--editable", f"{ROOT}[fast]"]
+        _check([*install, f"--overrides={_numpy(home)}", *what])
 
     _once(home, source, make)
     tests = ("runtimes", "centerline_network", "routing_network", "pipeline")
