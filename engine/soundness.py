@@ -180,7 +180,7 @@ def _check_stroke(stroke: Stroke, where: str) -> None:
 
 
 def _check_lengths(drawing: Drawing) -> None:
-    """No stroke is a point, unless the lines that it runs through are one."""
+    """No stroke is a point, unless it stands for a line between junctions that is one."""
     graph = drawing.graph
     for number, stroke in enumerate(drawing.strokes):
         # A ring may have one anchor, and its length from the handles.
@@ -189,8 +189,11 @@ def _check_lengths(drawing: Drawing) -> None:
         if alike:
             branches = (stroke.branches >> 1).tolist()
             course = [graph.points[graph.offsets[b] : graph.offsets[b + 1]] for b in branches]
-            spread = np.ptp(np.concatenate(course), axis=0).max()
-            _need(spread == 0, f"stroke {number} has no length: all its points are one")
+            ends = graph.ends[branches]
+            ends = ends[ends[:, 0] != ends[:, 1]]
+            hangs = (graph.degrees[ends] > 1).any()  # two junctions in one place
+            point = hangs and not np.ptp(np.concatenate(course), axis=0).any()
+            _need(point, f"stroke {number} has no length: all its points are one")
 
 
 def _check_walks(drawing: Drawing) -> None:
