@@ -32,6 +32,7 @@ _VERBS = (
     "junctions.accept_inside",
     "junctions.ask_again",
     "junctions.go_to_junction",
+    "junctions.doubtful_frame",
     "junctions.preview",
     "junctions.choose",
     "junctions.review",

@@ -160,6 +160,28 @@ def picture_of(data: bpy.types.ID, key: int) -> Picture:
         return Picture() if entry is None else stored_trace.picture_of(entry)
 
 
+def doubtful_frames(data: bpy.types.ID) -> dict[int, int]:
+    """The keyframes with traced strokes, ascending, and how many of their junctions are doubtful.
+
+    Quick: no drawing is decoded. What is damaged counts as certain.
+    """
+    keys: dict[int, set[int]] = {}
+    for layer in data.layers:
+        for frame in layer.frames:
+            column = None if frame.drawing is None else cels.read_column(frame.drawing, TRACE)
+            if column is not None and column.any():
+                there = keys.setdefault(frame.frame_number, set())
+                there |= set(np.unique(column[column > 0]).tolist())
+    found = {}
+    for frame, some in sorted(keys.items()):
+        found[frame] = 0
+        for key in some:
+            with contextlib.suppress(InvoluteError), reading():
+                entry = _entry(data, key)
+                found[frame] += 0 if entry is None else stored_trace.doubtful_of(entry)
+    return found
+
+
 def forget(data: bpy.types.ID, key: int) -> None:
     """Drop what is stored of a trace, if no stroke carries its key any more."""
     if not _users(list(cels.all_cels(data)), key) and str(key) in _traces(data):

@@ -5,7 +5,8 @@
      "earlier": {stamp: bytes},          routings that undo may bring back, as differences
      "unmarked": str,                    stamp that strokes without a mark have; missing = "stamp"
      "placement": 9 floats, "source": str,
-     "path": str, "page": int, "image": str}   the picture, to trace it again
+     "path": str, "page": int, "image": str,   the picture, to trace it again
+     "doubtful": int}                          how many junctions are worth a look; may be missing
 
 A file may be cut short, or edited by other programs: whatever is wrong is said in one sentence.
 """
@@ -93,6 +94,14 @@ def source_of(entry: Any) -> str:
     return _text(entry, "source")
 
 
+def doubtful_of(entry: Any) -> int:
+    """How many junctions are worth a look; 0 where nobody counted them."""
+    count = entry.get("doubtful", 0)
+    if not isinstance(count, int):
+        raise TypeError("doubtful")
+    return count
+
+
 def picture_of(entry: Any) -> Picture:
     """The picture that it was traced from, as far as somebody noted it."""
     values = {name: entry[name] for name in ("path", "page", "image") if name in entry}
@@ -178,6 +187,7 @@ def made(
     remember(stamp, drawing)
     entry = {"drawing": blob, "base": base, "routing": b"", "stamp": stamp}
     entry |= {"placement": pixel_map.as_list(), "source": source}
+    entry["doubtful"] = len(drawing.doubtful)
     return entry | (picture or Picture()).as_entry(), stamp
 
 
@@ -197,7 +207,7 @@ def rerouted(
         earlier.pop(known, None)
         earlier[known] = change.packed(base, one, differs=True)
     changed = {name: entry[name] for name in ("drawing", "base", "source")}
-    changed |= picture_of(entry).as_entry()
+    changed |= picture_of(entry).as_entry() | {"doubtful": len(drawing.doubtful)}
     changed |= {"routing": routing, "stamp": stamp, "placement": pixel_map.as_list()}
     changed["earlier"] = dict(list(earlier.items())[-_MAX_EARLIER:])
     changed["unmarked"] = _text(entry, "unmarked") if "unmarked" in entry else stamp_of(entry)

@@ -724,4 +724,15 @@ TEXTS = {
     "Use Its Settings": "Ihre Einstellungen verwenden",
     "{count} decisions have no place any more": "{count} Entscheidungen haben keinen Platz mehr",
     "{count} that you changed stay": "{count} von dir geänderte bleiben",
+    "Go to the next or previous keyframe that has doubtful junctions": (
+        "Zum nächsten oder vorherigen Keyframe mit zweifelhaften Kreuzungen gehen"
+    ),
+    "Next or Previous Doubtful Keyframe": "Nächster oder vorheriger zweifelhafter Keyframe",
+    "Which way along the timeline": "In welche Richtung auf der Zeitleiste",
+    "The next doubtful keyframe": "Der nächste zweifelhafte Keyframe",
+    "The doubtful keyframe before": "Der zweifelhafte Keyframe davor",
+    "No other keyframe has doubtful junctions.": "Kein anderer Keyframe hat zweifelhafte Kreuzungen.",
+    "{doubts} doubts on {some} of {all} keyframes": (
+        "{doubts} Zweifel auf {some} von {all} Keyframes"
+    ),
 }
