@@ -43,6 +43,7 @@ RUNS: dict[str, NamedRun] = {
     "speed": NamedRun("speed", "seconds by page and stage, growth, rivals", ("--pages", "all")),
     "graph_stage": NamedRun("graph_stage", "the graph behind perfect centerlines", ("--ideal",)),
     "graph_limits": NamedRun("graph_limits", "every limit of the graph, halved and doubled"),
+    "scan_limits": NamedRun("scan_limits", "limits of broad lines and rules, on held-out pages"),
     "true_graphs": NamedRun("true_graphs", "routing alone, on perfect graphs"),
     "offset": NamedRun("offset", "whether pages lie beside their truth"),
     "curve_points": NamedRun("curve_points", "points a stroke, as polylines and as curves"),

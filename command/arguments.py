@@ -132,7 +132,11 @@ def _add_inspect(commands: Any) -> None:
         description="Print the size, strokes, widths and junctions of a drawing (.json, .svg), or "
         "what would be traced in an image.",
     )
-    inspect.add_argument("file", metavar="FILE", help="a drawing or an image")
+    what = inspect.add_mutually_exclusive_group(required=True)
+    what.add_argument("file", metavar="FILE", nargs="?", help="a drawing or an image")
+    what.add_argument(
+        "--runtime", action="store_true", help="say what runs the networks here, and how fast"
+    )
 
 
 def _add_evaluate(commands: Any) -> None:

@@ -7,11 +7,14 @@ only a few figures: memory does not grow with the number of images.
 
 from __future__ import annotations
 
+import os
 import sys
+from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
+from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -47,8 +50,8 @@ class Task:
 class Outcome:
     """What became of a task.
 
-    report: seconds of each stage, strokes, junctions, doubtful, width, height, peak_rss_mb; and
-        aligned, where that was asked for.
+    report: seconds of each stage that ran (none where it is the same picture again), strokes,
+        junctions, doubtful, width, height, peak_rss_mb; and aligned, where that was asked for.
     error: one sentence, or None when the outputs are there.
     resumed: nothing had to be made.
     kept: outputs that were left alone because someone has edited them.
@@ -84,8 +87,8 @@ def run(
     task is ever written.
 
     Args:
-        jobs: processes at once; 0 = one per CPU core, as far as memory goes. 1 works in this
-            process.
+        jobs: processes at once, never more than cores: together their threads are as many as
+            these; 0 = one per core, as far as memory goes. 1 works in this process.
         resume: leave out what an earlier run with `resume` has made of the same image bytes with
             the same settings, and what was edited since; also keeps the receipts that a later run
             needs for that.
@@ -109,12 +112,13 @@ def run(
 
     stopping.check()
     clear_up()
-    jobs = min(jobs or default_jobs(), len(tasks))
+    groups = _alike(tasks)
+    jobs = min(jobs or default_jobs(), len(groups))
     try:
         if jobs <= 1:
-            yield from _here(tasks, before, progress, begin)
+            yield from _here(chain.from_iterable(groups), before, progress, begin)
         else:
-            yield from _elsewhere(tasks, before, jobs)
+            yield from _elsewhere(groups, before, min(jobs, machine.cores()))
     finally:
         clear_up()  # a worker of a killed run may have ended only now
 
@@ -124,8 +128,30 @@ def default_jobs() -> int:
     return max(1, min(machine.cores(), int(machine.memory() / _MEMORY_PER_WORKER)))
 
 
+def _alike(tasks: Sequence[Task]) -> list[list[Task]]:
+    """Tasks of the same picture with the same settings together, in the order of their first: held
+    drawings and cycles of a sequence are traced once."""
+
+    def look(task: Task) -> tuple[int, int, Settings] | None:
+        try:
+            return os.stat(task.source).st_size, task.page, task.settings
+        except OSError:  # tracing will say so
+            return None
+
+    looks = [look(task) for task in tasks]
+    count = Counter(looks)
+    groups: dict[object, list[Task]] = {}
+    for number, (task, seen) in enumerate(zip(tasks, looks, strict=True)):
+        key: object = number
+        if seen and count[seen] > 1:  # only what may be alike has to be read
+            with suppress(OSError):
+                key = receipts.fingerprint(task.source, task.page, task.settings)
+        groups.setdefault(key, []).append(task)
+    return list(groups.values())
+
+
 def _here(
-    tasks: Sequence[Task],
+    tasks: Iterable[Task],
     before: Callable[[Task], _Todo | Outcome],
     progress: Callable[[str, float], None] | None,
     begin: Callable[[Task], None] | None,
@@ -142,24 +168,27 @@ def _here(
 
 
 def _elsewhere(
-    tasks: Sequence[Task], before: Callable[[Task], _Todo | Outcome], jobs: int
+    groups: Sequence[Sequence[Task]], before: Callable[[Task], _Todo | Outcome], jobs: int
 ) -> Iterator[Outcome]:
     from .workers import Workers
 
     workers = Workers(jobs)
 
-    def trace(task: Task) -> Outcome:
-        todo = before(task)
-        if isinstance(todo, Outcome):
-            return todo
-        return _outcome(task, todo, workers.trace(todo.task))
+    def trace(group: Sequence[Task]) -> list[Outcome]:
+        found = [before(task) for task in group]
+        # One process for all of them: it remembers what it has just drawn.
+        replies = iter(workers.trace([todo.task for todo in found if isinstance(todo, _Todo)]))
+        return [
+            todo if isinstance(todo, Outcome) else _outcome(task, todo, next(replies))
+            for task, todo in zip(group, found, strict=True)
+        ]
 
     executor = ThreadPoolExecutor(jobs, thread_name_prefix="involute")
     try:
-        futures = [executor.submit(trace, task) for task in tasks]
+        futures = [executor.submit(trace, group) for group in groups]
         for future in as_completed(futures):
             stopping.check()
-            yield future.result()
+            yield from future.result()
     finally:
         workers.stop()
         executor.shutdown(wait=True, cancel_futures=True)
@@ -199,14 +228,11 @@ def foreign(output: str) -> str:
 
 def perform(task: Task, progress: Callable[[str, float], None] | None = None) -> dict[str, Any]:
     """Trace one image in this process; returns {"report": ...} or {"error": sentence}."""
-    from ..engine.pipeline import vectorize
-
     try:
         key = ""
         with suppress(OSError):  # a missing file is vectorize's to report
-            if task.receipt:
-                key = receipts.fingerprint(task.source, task.page, task.settings)
-        drawing = vectorize(task.source, task.settings, progress, page=task.page)
+            key = receipts.fingerprint(task.source, task.page, task.settings)
+        drawing = _traced(task, key, progress)
         report = summary(drawing)
         _write(drawing, task, key, report)
     except InvoluteError as error:
@@ -216,6 +242,22 @@ def perform(task: Task, progress: Callable[[str, float], None] | None = None) ->
     except Exception as error:  # a bug must not cost the other images
         return {"error": f"Something went wrong inside ({type(error).__name__}: {error})."}
     return {"report": report}
+
+
+_newest: dict[str, Drawing] = {}  # fingerprint -> the drawing that this process made last
+
+
+def _traced(task: Task, key: str, progress: Callable[[str, float], None] | None) -> Drawing:
+    """The drawing of a task; that of the last one, at no cost, where it has the same key."""
+    from ..engine.pipeline import vectorize
+
+    if key and key in _newest:
+        return _newest[key].with_seconds({})
+    _newest.clear()
+    drawing = vectorize(task.source, task.settings, progress, page=task.page)
+    if key:
+        _newest[key] = drawing
+    return drawing
 
 
 def _write(drawing: Drawing, task: Task, key: str, report: Mapping[str, Any]) -> None:

@@ -79,7 +79,8 @@ def _run(argv: Sequence[str] | None, formats: Sequence[Format], evaluate: Evalua
     elif options.command == "inspect":
         from . import inspect_command
 
-        print("\n".join(inspect_command.about(Path(options.file))))
+        lines = inspect_command.about_runtimes() if options.runtime else None
+        print("\n".join(lines or inspect_command.about(Path(options.file))))
     else:
         _evaluate(options, evaluate)
     return DONE

@@ -6,6 +6,8 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ..engine import runtimes
+from ..engine.errors import InvoluteError
 from ..engine.formats import format_of, load
 from ..engine.settings import Settings
 
@@ -82,3 +84,28 @@ def _about_scan(path: Path) -> Iterator[str]:
     yield f"worked at  {scan.ink.shape[1]} x {scan.ink.shape[0]} px"
     yield f"ink        {float(scan.ink.mean()):.1%} of the page"
     yield f"color      {'no' if scan.color is None else 'yes'}"
+
+
+def about_runtimes() -> Iterator[str]:
+    """Lines for people about what runs the networks here, and how fast.
+
+    Raises:
+        InvoluteError: the weights are missing or damaged, or `runtimes.chosen`.
+    """
+    from ..engine import weights
+    from ..engine.centerline import learned
+    from ..engine.centerline.backends import INPUT
+
+    if not learned.available():
+        raise InvoluteError(
+            "The weights of the centerline network are missing; reinstall Involute."
+        )
+    used, content = runtimes.chosen(), weights.read(learned.WEIGHTS)
+    for runtime in runtimes.here():
+        cpu, wall = runtimes.seconds(runtime, content, INPUT)
+        yield (
+            f"{runtime.label:13} {runtime.version:11} {cpu:5.2f} processor seconds a megapixel, "
+            f"{wall:5.2f} s" + (", used" if runtime is used else "")
+        )
+    if len(runtimes.here()) == 1:
+        yield "With ONNX Runtime (pip install onnxruntime) it would take less than half."

@@ -19,7 +19,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
-from ..engine import weights
+from ..engine import runtimes, weights
 from ..engine.formats import Format
 from ..engine.formats.whole_file import whole_file, write_text
 from ..engine.settings import Settings
@@ -164,7 +164,7 @@ def forget_images() -> None:
     _content.cache_clear()
 
 
-@lru_cache(4)
+@lru_cache(4096)
 def _content(source: str, size: int, changed: int, status: int) -> str:
     """The hash of an image; remembered for a run: the images of a movie are in one file."""
     return digest(Path(source))
@@ -172,7 +172,12 @@ def _content(source: str, size: int, changed: int, status: int) -> str:
 
 @cache
 def program() -> str:
-    """The hash of what makes the drawings: all sources and weights, and the libraries' versions."""
+    """The hash of what makes the drawings: all sources and weights, the libraries' versions, and
+    what runs the networks, by which they differ in the last digits.
+
+    Raises:
+        InvoluteError: INVOLUTE_RUNTIME asks for a runtime that isn't here.
+    """
     folder = Path(weights.__file__).resolve().parents[1]
     files = [*folder.rglob("*.py"), *(weights.FOLDER / name for name in weights.names())]
     found = hashlib.blake2b(digest_size=16)
@@ -182,6 +187,8 @@ def program() -> str:
     for name in _LIBRARIES:
         with suppress(PackageNotFoundError):
             found.update(f"{name} {version(name)}\n".encode())
+    runtime = runtimes.chosen()
+    found.update(f"{runtime.name} {runtime.version}\n".encode())
     return found.hexdigest()
 
 

@@ -7,7 +7,7 @@ import os
 import subprocess
 import sys
 import threading
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 from queue import SimpleQueue
@@ -26,7 +26,7 @@ class Workers:
     """A handful of worker processes, each used by one thread at a time."""
 
     def __init__(self, jobs: int) -> None:
-        self._threads = max(1, machine.cores() // jobs)
+        self._threads = max(1, machine.cores() // jobs)  # all together, never more than cores
         self._idle: SimpleQueue[_Worker] = SimpleQueue()
         self._all: set[_Worker] = set()
         self._lock = threading.Lock()
@@ -34,9 +34,17 @@ class Workers:
         for _ in range(jobs):
             self._idle.put(_Worker())
 
-    def trace(self, task: Task) -> Mapping[str, Any]:
-        """Wait for an idle worker and let it trace; its answer is that of `batch.perform`."""
+    def trace(self, tasks: Sequence[Task]) -> list[Mapping[str, Any]]:
+        """Wait for an idle worker and let it trace; its answers are those of `batch.perform`."""
+        if not tasks:
+            return []
         worker = self._idle.get()
+        try:
+            return [self._answer(worker, task) for task in tasks]
+        finally:
+            self._idle.put(worker)
+
+    def _answer(self, worker: _Worker, task: Task) -> Mapping[str, Any]:
         try:
             with self._lock:
                 if self._stopped:
@@ -48,8 +56,6 @@ class Workers:
             return {"error": f"Can't start a process for it: {error.strerror or error}."}
         except InvoluteError as error:
             return {"error": str(error)}
-        finally:
-            self._idle.put(worker)
 
     def stop(self) -> None:
         """End all processes at once; safe at any time, since outputs appear only when whole."""

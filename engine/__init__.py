@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from .drawing import Drawing
     from .errors import Cancelled, InvoluteError
+    from .kept_stages import KeptStages
     from .pipeline import vectorize
     from .settings import Settings
     from .values import Junction, Stroke
@@ -20,6 +21,7 @@ _HOMES = {
     "Drawing": "drawing",
     "InvoluteError": "errors",
     "Junction": "values",
+    "KeptStages": "kept_stages",
     "Settings": "settings",
     "Stroke": "values",
     "vectorize": "pipeline",
@@ -29,6 +31,7 @@ __all__ = [
     "Drawing",
     "InvoluteError",
     "Junction",
+    "KeptStages",
     "Settings",
     "Stroke",
     "vectorize",

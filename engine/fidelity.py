@@ -116,7 +116,9 @@ def warnings(found: Fidelity, light: bool) -> tuple[str, ...]:
 
 def _without_specks(place: Array) -> Array:
     _, label, stats, _ = cv2.connectedComponentsWithStats(place.view(np.uint8))
-    return place & (stats[:, cv2.CC_STAT_AREA] >= _SPECK)[label]
+    kept = np.zeros_like(place)
+    kept[place] = (stats[:, cv2.CC_STAT_AREA] >= _SPECK)[label[place]]
+    return kept
 
 
 def _around(stroke: Stroke) -> Array:

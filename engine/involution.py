@@ -91,10 +91,21 @@ def _greedy(pairs: Array, cost: Array, ids: Array, worth: float) -> Array:
     return np.array(picked, np.int64)
 
 
+@lru_cache(maxsize=MAX_LISTED_DEGREE + 1)
+def local_pairs(degree: int) -> tuple[tuple[Pair, ...], ...]:
+    """The pairs that each of `involutions(degree)` joins, ascending."""
+    return tuple(pairs_within(way) for way in involutions(degree))
+
+
+def pairs_within(partner: Array) -> tuple[Pair, ...]:
+    """An involution of local numbers (d,) as ascending pairs of them."""
+    return tuple((i, j) for i, j in enumerate(partner.tolist()) if i < j)
+
+
 def pairs_of(partner: Array, halves: Array) -> tuple[Pair, ...]:
     """An involution of local numbers as ascending pairs of half-branches."""
-    a = np.flatnonzero(partner > np.arange(len(partner)))
-    return tuple((int(i), int(j)) for i, j in zip(halves[a], halves[partner[a]], strict=True))
+    own = halves.tolist()
+    return tuple((own[i], own[j]) for i, j in pairs_within(partner))
 
 
 def best_matching(score: Array) -> Array:

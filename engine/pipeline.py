@@ -7,29 +7,32 @@ Every stage takes the value of the stage before it and returns a new one; see `v
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from os import PathLike
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from itertools import accumulate
 from time import perf_counter
+from typing import Any, TypeVar
 
 from .centerline import provider_for
 from .centerline.mending import mended
-from .drawing import Drawing
+from .drawing import Drawing, Fill
 from .errors import Cancelled
 from .fills.solids import split_solids
 from .graph import Evidence, routed, run_passes
 from .graph.passes import ROUTED
 from .ink.unmixing import without_inks
+from .kept_stages import KeptStages, Source, keys
 from .routing import route
 from .scan import read_scan
 from .scan.registration import set_aside
 from .scan.screentone import without_screentone
-from .scan.wide_lines import find_wide_lines
+from .scan.wide_lines import WideLines, find_wide_lines
 from .settings import Settings
-from .values import Array
+from .values import LineMaps, PlanarGraph, Routing, Scan
 from .wide_pens import look_again
 
 Progress = Callable[[str, float], None]
-Source = str | PathLike[str] | Array
+T = TypeVar("T")
 
 # What each stage takes of the whole time, for a progress bar that moves evenly.
 _SHARES = {
@@ -41,6 +44,7 @@ _SHARES = {
     "strokes": 0.08,
     "check": 0.02,
 }
+_BEGINS = dict(zip(_SHARES, accumulate([0.0, *_SHARES.values()]), strict=False))
 
 
 def vectorize(
@@ -49,6 +53,7 @@ def vectorize(
     progress: Progress | None = None,
     *,
     page: int = 0,
+    kept: KeptStages | None = None,
 ) -> Drawing:
     """Trace one drawing.
 
@@ -58,40 +63,119 @@ def vectorize(
         settings: see `Settings`.
         progress: called as progress(stage, fraction of the whole); may raise `Cancelled`.
         page: which page of a TIFF with several.
+        kept: what was made in earlier traces; only what the settings have changed since runs, and
+            what it makes is kept there, too, even when the trace is cancelled.
 
     Returns:
-        The drawing in pixels of the input; `drawing.seconds` says how long each stage took.
+        The drawing in pixels of the input; `drawing.seconds` says how long each stage took that
+        ran.
 
     Raises:
         InvoluteError: the source can't be read, or a setting can't be met.
         Cancelled: the progress callback asked to stop.
     """
-    settings = settings or Settings()
     clock = _Clock(progress)
-    with clock("scan"):
-        scan = set_aside(read_scan(source, settings, page=page), settings)
-        scan = without_screentone(without_inks(scan, settings), settings)
-    with clock("solids"):
-        wide = find_wide_lines(scan, settings)
-        lines, fills = split_solids(scan, settings, wide.near if wide.any else None)
-    with clock("centerline") as tick:
-        look = provider_for(settings)
-        maps = look(lines, tick)
-        if wide.any:
-            maps = look_again(maps, lines, wide, look, settings)
-        if settings.provider in ("auto", "network") and maps.half_width is not None:
-            maps = mended(maps, lines, wide.near if wide.any else None)
-    with clock("graph"):
-        evidence = Evidence.of(lines, maps)
-        graph = run_passes(evidence, settings, until=ROUTED)
-    with clock("routing"):
-        graph, routing = routed(graph, evidence, settings, route)
-        del evidence
-    with clock("strokes"):
-        drawing = Drawing.from_routing(graph, routing, scan, settings, fills)
-    with clock("check"):
-        drawing = drawing.compared_with(scan)
+    drawing = _Trace(source, page, settings or Settings(), clock, kept).drawing()
     return drawing.with_seconds(clock.seconds)
+
+
+class _Trace:
+    """One page on its way. Each stage asks for those before it when it has to run itself."""
+
+    def __init__(
+        self,
+        source: Source,
+        page: int,
+        settings: Settings,
+        clock: _Clock,
+        kept: KeptStages | None,
+    ) -> None:
+        self._source, self._page, self._settings = source, page, settings
+        self._clock, self._kept = clock, kept
+        self._keys: Mapping[str, str] = {}
+        if kept:
+            with suppress(OSError):  # the first stage says what is wrong with the picture
+                self._keys = keys(source, page, settings)
+        self._own: dict[str, object] = {}  # what several stages of this trace want
+
+    def _recalled(self, stage: str) -> Any | None:
+        if stage in self._own:
+            return self._own[stage]
+        return self._kept.recall(self._keys[stage]) if self._kept and self._keys else None
+
+    def _made(self, stage: str, made: T) -> T:
+        if self._kept and self._keys:
+            self._kept.keep(self._keys[stage], made)
+        return made
+
+    def scan(self) -> Scan:
+        if (found := self._recalled("scan")) is None:
+            settings = self._settings
+            with self._clock("scan"):
+                found = set_aside(read_scan(self._source, settings, page=self._page), settings)
+                found = without_screentone(without_inks(found, settings), settings)
+            self._made("scan", found)
+        self._own["scan"] = found
+        return found
+
+    def solids(self) -> tuple[WideLines, Scan, list[Fill]]:
+        """What is wide on the page, the page with lines alone, and its solid areas."""
+        if (found := self._recalled("solids")) is None:
+            scan = self.scan()
+            with self._clock("solids"):
+                wide = find_wide_lines(scan, self._settings)
+                near = wide.near if wide.any else None
+                found = wide, *split_solids(scan, self._settings, near)
+            self._made("solids", found)
+        self._own["solids"] = found
+        return found
+
+    def maps(self) -> LineMaps:
+        if (found := self._recalled("centerline")) is not None:
+            return found
+        settings, (wide, lines, _) = self._settings, self.solids()
+        with self._clock("centerline") as tick:
+            look = provider_for(settings)
+            maps = look(lines, tick)
+            if wide.any:
+                maps = look_again(maps, lines, wide, look, settings)
+            if settings.provider in ("auto", "network") and maps.half_width is not None:
+                maps = mended(maps, lines, wide.near if wide.any else None)
+        return self._made("centerline", maps)
+
+    def _evidence(self) -> Evidence:
+        maps = self.maps()
+        return Evidence.of(self.solids()[1], maps)
+
+    def graph(self) -> tuple[PlanarGraph, Evidence | None]:
+        """The lines, not routed yet, and what they were made of where that is at hand."""
+        if (found := self._recalled("graph")) is not None:
+            return found, None
+        evidence = self._evidence()
+        with self._clock("graph"):
+            graph = run_passes(evidence, self._settings, until=ROUTED)
+        return self._made("graph", graph), evidence
+
+    def routed(self) -> tuple[PlanarGraph, Routing]:
+        if (found := self._recalled("routing")) is not None:
+            return found
+        graph, evidence = self.graph()
+        evidence = evidence or self._evidence()
+        with self._clock("routing"):
+            found = routed(graph, evidence, self._settings, route)
+        return self._made("routing", found)
+
+    def drawing(self) -> Drawing:
+        if (found := self._recalled("strokes")) is not None:
+            return found
+        graph, routing = self.routed()
+        scan, (_, _, fills) = self.scan(), self.solids()
+        self._own = {}  # the strokes need no more than that
+        with self._clock("strokes"):
+            drawing = Drawing.from_routing(graph, routing, scan, self._settings, fills)
+        with self._clock("check"):
+            drawing = drawing.compared_with(scan)
+        return self._made("strokes", drawing)
 
 
 class _Clock:
@@ -101,7 +185,6 @@ class _Clock:
         self.seconds: dict[str, float] = {}
         self._progress = progress
         self._stage = ""
-        self._done = 0.0
 
     def __call__(self, stage: str) -> _Clock:
         self._stage = stage
@@ -114,11 +197,11 @@ class _Clock:
 
     def __exit__(self, *error: object) -> None:
         self.seconds[self._stage] = perf_counter() - self._start
-        self._done += _SHARES[self._stage]
 
     def _tick(self, fraction: float) -> None:
         if self._progress:
-            self._progress(self._stage, min(1.0, self._done + _SHARES[self._stage] * fraction))
+            begin = _BEGINS[self._stage]
+            self._progress(self._stage, min(1.0, begin + _SHARES[self._stage] * fraction))
 
 
-__all__ = ["Cancelled", "Progress", "Source", "vectorize"]
+__all__ = ["Cancelled", "KeptStages", "Progress", "Source", "vectorize"]

@@ -15,6 +15,8 @@ from typing import Any
 from .errors import InvoluteError
 
 WHAT, CLEAN, POINTS = GROUPS = ("What the Drawing Is", "How Clean", "How Many Points")
+# The stages of a trace whose results are kept; see `kept_stages`.
+STAGES = ("scan", "solids", "centerline", "graph", "routing", "strokes")
 INKS = ("red", "orange", "yellow", "green", "cyan", "blue", "purple", "pink", "gray")
 
 
@@ -38,11 +40,13 @@ class About:
     off: what `--no-...` does, for a switch that is on by default.
     more: what the manual adds.
     low, high: the least and the most of a number; soft_high: how far a slider goes.
+    stage: the first of `STAGES` that reads it; those before it need not run again when it changes.
     unit: "px" of the input, "pens" (typical widths of a line), "share" (0 to 1), or "".
     """
 
     kind: type
     group: str
+    stage: str
     label: str
     tip: str
     off: str = ""
@@ -96,6 +100,7 @@ class Settings:
         ("dark", "Dark on Light", "Ink or pencil on paper"),
         ("light", "Light on Dark", "Chalk, blueprints, inverted scans"),
         group=WHAT,
+        stage="scan",
         label="Lines",
         tip="Which side of the picture is ink",
     )
@@ -106,6 +111,7 @@ class Settings:
         soft_high=50.0,
         unit="px",
         group=WHAT,
+        stage="scan",
         label="Pen Width",
         tip="Usual width of a line in pixels of the picture; 0 measures it",
         more="Set it when the page holds a few thin lines beside large black areas",
@@ -113,6 +119,7 @@ class Settings:
     inks: bool = _switch(
         True,
         group=WHAT,
+        stage="strokes",
         label="Ink Colors",
         tip="Give every ink its own layer and material; off draws all lines in black",
         off="make all strokes black instead of the color of their ink",
@@ -121,6 +128,7 @@ class Settings:
     ignore_inks: tuple[str, ...] = _any_of(
         *((name, name.title(), "Don't trace lines of this color") for name in INKS),
         group=WHAT,
+        stage="scan",
         label="Ignore Inks",
         tip="Inks that are not traced, such as a blue construction pencil",
         more="`gray` is pencil under ink",
@@ -128,6 +136,7 @@ class Settings:
     solids: bool = _switch(
         True,
         group=WHAT,
+        stage="solids",
         label="Solid Blacks",
         tip="Turn areas of solid ink into fills instead of tracing them as lines",
         off="trace solid black areas as lines too, instead of making them fills",
@@ -139,6 +148,7 @@ class Settings:
         soft_high=100.0,
         unit="px",
         group=WHAT,
+        stage="solids",
         label="Solid Width",
         tip="Lines wider than this, in pixels of the picture, are solid areas; 0 finds out from "
         "the pen",
@@ -146,6 +156,7 @@ class Settings:
     sheet: bool = _switch(
         True,
         group=WHAT,
+        stage="scan",
         label="Leave Out Surroundings",
         tip="Don't trace what lies beyond the sheet in a photograph: cloth, a desk, a finger",
         off="trace what lies beyond the sheet in a photograph too",
@@ -153,6 +164,7 @@ class Settings:
     rules: bool = _switch(
         True,
         group=WHAT,
+        stage="scan",
         label="Leave Out Rules",
         tip="Don't trace the printed lines of ruled and squared paper",
         off="trace the printed lines of ruled and squared paper too",
@@ -160,6 +172,7 @@ class Settings:
     screentone: bool = _switch(
         True,
         group=WHAT,
+        stage="scan",
         label="Leave Out Screentone",
         tip="Don't trace areas of evenly set dots, such as the tones of a comic",
         off="trace every dot of a screentone",
@@ -167,6 +180,7 @@ class Settings:
     marks: bool = _switch(
         True,
         group=WHAT,
+        stage="scan",
         label="Leave Out Marks",
         tip="Don't trace scan borders, punched holes and registration marks",
         off="trace scan borders, punched holes and registration marks too",
@@ -174,6 +188,7 @@ class Settings:
     regions: bool = _switch(
         False,
         group=WHAT,
+        stage="strokes",
         label="Fill Regions",
         tip="Fill the closed regions between the lines, on a layer below",
         more="White, or the color that is painted there; in Blender and SVG",
@@ -186,6 +201,7 @@ class Settings:
         soft_high=10.0,
         unit="pens",
         group=CLEAN,
+        stage="graph",
         label="Specks",
         tip="Drop lone strokes shorter than this many pen widths",
         more="Strokes that hang on other lines are dropped up to twice that length",
@@ -193,6 +209,7 @@ class Settings:
     dots: bool = _switch(
         True,
         group=CLEAN,
+        stage="graph",
         label="Keep Dots",
         tip="Keep dots of full ink about as wide as the pen, which are no specks",
         off="drop small dots as specks",
@@ -204,6 +221,7 @@ class Settings:
         1.0,
         unit="share",
         group=CLEAN,
+        stage="graph",
         label="Smoothing",
         tip="0 keeps every wobble of the hand, 1 is very smooth",
         more="Corners stay",
@@ -213,6 +231,7 @@ class Settings:
         -1.0,
         1.0,
         group=CLEAN,
+        stage="routing",
         label="Pen Lifts",
         tip="Where strokes end though only two lines meet: -1 nowhere, 0 where it looks as if the "
         "pen was lifted, 1 wherever it may have been",
@@ -224,6 +243,7 @@ class Settings:
         ("classical", "Ridge Filter", "No learning; for very clean lines"),
         ("given", "Picture Is Centerlines", "Thin white lines on black, made elsewhere"),
         group=CLEAN,
+        stage="centerline",
         label="Line Finder",
         tip="What finds the centres of the lines",
     )
@@ -232,6 +252,7 @@ class Settings:
         ("network", "Network", "Looks at the whole neighborhood of the junction"),
         ("geometric", "Geometry", "Looks at direction, curvature and width only"),
         group=CLEAN,
+        stage="routing",
         label="Junctions",
         tip="What decides which lines continue through a junction",
     )
@@ -240,6 +261,7 @@ class Settings:
         ("cpu", "Processor", "Always works"),
         ("gpu", "Graphics Card", "Needs PyTorch in Blender's Python"),
         group=CLEAN,
+        stage="centerline",
         label="Device",
         tip="Where the networks run",
         more="The processor does well",
@@ -249,6 +271,7 @@ class Settings:
         ("solid", "Solid", "Every stroke is opaque"),
         ("drawn", "As Drawn", "As strong as the line on the paper"),
         group=POINTS,
+        stage="strokes",
         label="Opacity",
         tip="How opaque the strokes are",
         more="One value for a stroke, unless the line really fades along it",
@@ -259,12 +282,14 @@ class Settings:
         20.0,
         soft_high=3.0,
         group=POINTS,
+        stage="strokes",
         label="Width Scale",
         tip="Make the strokes this many times as wide as the lines on the paper",
     )
     even_width: bool = _switch(
         False,
         group=POINTS,
+        stage="strokes",
         label="Even Width",
         tip="Give each stroke one width all along, that of its line on average",
     )
@@ -272,6 +297,7 @@ class Settings:
         ("polyline", "Points", "Plain points, for sculpting and drawing over"),
         ("bezier", "Bézier", "Few points with handles"),
         group=POINTS,
+        stage="strokes",
         label="Curves",
         tip="What the strokes are made of",
         more="Curves have less than half the points: those at bends, corners, junctions and where "
@@ -284,6 +310,7 @@ class Settings:
         soft_high=5.0,
         unit="px",
         group=POINTS,
+        stage="strokes",
         label="Tolerance",
         tip="How far a stroke may stray from the traced line, in pixels of the picture; "
         "more gives fewer points",
@@ -307,6 +334,8 @@ ABOUT: dict[str, About] = {
     for setting in fields(Settings)
     if "about" in setting.metadata
 }
+# Of `align`, too, which is nobody's to set.
+STAGE_OF = {name: about.stage for name, about in ABOUT.items()} | {"align": "scan"}
 DEFAULTS: dict[str, Any] = {setting.name: setting.default for setting in fields(Settings)}
 
 

@@ -5,6 +5,7 @@
     main    this environment: ruff, mypy, every test; the Blender ones against the built extension
     4.5     bpy 4.5 on Python 3.11: the same extension
     5.2     bpy 5.2 on Python 3.13: the same extension
+    fast    what runs networks, with the extra `fast`: ONNX Runtime
     torch   training tests, in an environment made by plain pip from training/requirements.txt
 
 The environments are made when missing, in .venv-NAME.
@@ -91,6 +92,27 @@ def in_blender(version: str, bpy: str, python: str) -> tuple[bool, str]:
     return _pytest(_python(home), "tests/blender", INVOLUTE_ZIP=_extension())
 
 
+def in_fast(seed: int) -> tuple[bool, str]:
+    home = ROOT / ".venv-fast"
+    source = (ROOT / "pyproject.toml").read_text("utf-8")
+
+    def make() -> None:
+        _check([*_uv(), "venv", "--clear", "--python", _interpreter("3.11"), str(home)])
+        install = [*_uv(), "pip", "install", "--python", str(_python(home))]
+        # OpenCV 5 asks for numpy 2, and runs on what Blender brings.
+        _check([*install, f"--overrides={_numpy(home)}", "--editable", f"{ROOT}[fast,test]"])
+
+    _once(home, source, make)
+    tests = ("runtimes", "centerline_network", "routing_network", "pipeline")
+    return _pytest(_python(home), *(f"tests/engine/test_{t}.py" for t in tests), _seeded(seed))
+
+
+def _numpy(home: Path) -> Path:
+    pin = home / "numpy.txt"
+    pin.write_text("numpy==1.26.4\n", "utf-8")
+    return pin
+
+
 def in_torch(seed: int) -> tuple[bool, str]:
     home = ROOT / ".venv-torch"
     requirements = ROOT / "training" / "requirements.txt"
@@ -111,6 +133,7 @@ RUNS: dict[str, Callable[[int], tuple[bool, str]]] = {
     "main": in_this_environment,
     "4.5": lambda seed: in_blender("4.5", "4.5.15", "3.11"),
     "5.2": lambda seed: in_blender("5.2", "5.2.3", "3.13"),
+    "fast": in_fast,
     "torch": in_torch,
 }
 

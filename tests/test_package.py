@@ -79,3 +79,18 @@ def test_every_wheel_that_is_shipped_is_imported() -> None:
         assert re.search(rf"^ *(import|from) {name}\b", code, re.M)
     for platform in package.PLATFORMS:
         assert sum(package._fits(Path(w).name, platform) for w in wheels) == 2
+
+
+def test_a_runtime_has_a_pinned_wheel_for_both_pythons_wherever_it_exists() -> None:
+    for name, (release, tags) in package.RUNTIMES.items():
+        pins = (package.ROOT / f"wheels-{name}.txt").read_text("utf-8")
+        assert f"{name}=={release} " in pins
+        assert len(re.findall("sha256:", pins)) == len(package.PYTHONS) * len(tags)
+        extra = tomllib.loads((package.ROOT / "pyproject.toml").read_text("utf-8"))
+        assert f"{name}=={release}" in extra["project"]["optional-dependencies"]["fast"]
+        assert set(tags) < set(package.PLATFORMS)
+
+
+def test_a_platform_without_the_runtime_is_said() -> None:
+    with pytest.raises(SystemExit, match="no onnxruntime"):
+        package.fetch_runtime("onnxruntime", "macos-x64")

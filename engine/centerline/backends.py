@@ -1,4 +1,4 @@
-"""What runs the network: OpenCV everywhere, torch on a GPU when it happens to be installed."""
+"""What runs the network: the processor (`runtimes`), or a GPU where torch is installed as well."""
 
 from __future__ import annotations
 
@@ -6,11 +6,8 @@ from collections.abc import Callable
 from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
-from threading import Lock
 
-import cv2
-import numpy as np
-
+from .. import runtimes
 from .. import weights as shipped
 from ..errors import InvoluteError
 from ..values import Array
@@ -20,28 +17,37 @@ Infer = Callable[[Array], Array]
 InferBoth = Callable[[Array], tuple[Array, Array]]
 """The same, and beside the maps the features they are made of, (F, h / 2, w / 2) float32."""
 
+INPUT = "ink"  # what the network calls it
 _Run = Callable[[Array, int], list[Array]]  # ink -> the first so many outputs
 
 
-@cache
 def load(weights: Path, device: str) -> Infer:
-    """The network in a file, on a device; loaded once per process.
+    """The network in a file, on a device; loaded once per process and runtime.
 
     Raises:
         InvoluteError: the file is missing or broken, or there is no GPU though one is asked for.
     """
-    run = _loaded(weights, device)
-    return lambda ink: run(ink, 1)[0]
+    return _for_maps(weights, device, runtimes.chosen().name)
 
 
-@cache
 def load_both(weights: Path, device: str) -> InferBoth:
     """The same network as `load` gives, with its features.
 
     Raises:
         InvoluteError: as `load`; or when called: the weights are older and have no features.
     """
-    run = _loaded(weights, device)
+    return _for_both(weights, device, runtimes.chosen().name)
+
+
+@cache
+def _for_maps(weights: Path, device: str, runtime: str) -> Infer:
+    run = _loaded(weights, device, runtime)
+    return lambda ink: run(ink, 1)[0]
+
+
+@cache
+def _for_both(weights: Path, device: str, runtime: str) -> InferBoth:
+    run = _loaded(weights, device, runtime)
 
     def infer(ink: Array) -> tuple[Array, Array]:
         answers = run(ink, 2)
@@ -53,7 +59,7 @@ def load_both(weights: Path, device: str) -> InferBoth:
 
 
 @cache
-def _loaded(weights: Path, device: str) -> _Run:
+def _loaded(weights: Path, device: str, runtime: str) -> _Run:
     if not weights.exists():
         raise InvoluteError(
             f"The weights of the centerline network ({weights.name}) are missing; reinstall "
@@ -64,27 +70,15 @@ def _loaded(weights: Path, device: str) -> _Run:
         return _torch(weights, gpu)
     if device == "gpu":
         raise InvoluteError("Found no GPU that torch can use; choose the device 'auto' or 'cpu'.")
-    return _opencv(weights)
+    return _on_processor(weights)
 
 
-def _opencv(weights: Path) -> _Run:
+def _on_processor(weights: Path) -> _Run:
     try:
-        # From memory: OpenCV can't open every path that Python can.
-        data = np.frombuffer(shipped.read(weights), np.uint8)
-        net = cv2.dnn.readNetFromONNX(data, engine=cv2.dnn.ENGINE_NEW)
-    except cv2.error as error:
+        net = runtimes.load(shipped.read(weights))
+    except ValueError as error:
         raise InvoluteError(f"Can't read the weights in {weights.name}.") from error
-    running = Lock()
-    names = net.getUnconnectedOutLayersNames()
-
-    def infer(ink: Array, count: int) -> list[Array]:
-        with running:  # a net holds the state of its last run
-            net.setInput(ink[None, None])
-            # All outputs or the first: OpenCV takes no other selection.
-            answers = [net.forward()] if count == 1 else net.forward(names)
-            return [answer[0] for answer in answers]
-
-    return infer
+    return lambda ink, count: [answer[0] for answer in net({INPUT: ink[None, None]}, count)]
 
 
 def _torch_gpu() -> str | None:

@@ -135,6 +135,20 @@ FORMATS = (
         write_sequence=_later("pdf", "write_sequence"),
         needs=("pypdf", "pypdf==7.1.0"),
     ),
+    Format(
+        suffix=".lottie.json",
+        about="an animation for the web: a drawing draws itself, a sequence plays",
+        endings=(b"}",),
+        write=_later("lottie", "write"),
+        write_sequence=_later("lottie", "write_sequence"),
+    ),
+    Format(
+        suffix=".pli",
+        about="a vector level of OpenToonz and Tahoma2D: lines with thickness, a style per ink",
+        endings=(b"END",),
+        write=_later("pli", "write"),
+        write_sequence=_later("pli", "write_sequence"),
+    ),
 )
 
 

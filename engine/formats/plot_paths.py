@@ -69,9 +69,15 @@ def joined(lines: Sequence[Array], pen: float) -> list[Array]:
 
 
 def in_short_order(lines: Sequence[Array]) -> list[Array]:
-    """The lines, turned where that helps, each near where the one before it ended.
+    """The lines, turned where that helps, each near where the one before it ended."""
+    return [lines[end >> 1][::-1] if end & 1 else lines[end >> 1] for end in short_order(lines)]
 
-    The next one is the nearest on a grid that grows coarser as lines go: about n steps in all.
+
+def short_order(lines: Sequence[Array]) -> list[int]:
+    """The ends at which to begin the lines, each near where the one before it ended.
+
+    End 2 k is the first point of line k, 2 k + 1 its last. The next one is the nearest on a grid
+    that grows coarser as lines go: about n steps in all.
     """
     ends = np.array([line[[0, -1]] for line in lines], np.float64).reshape(-1, 2)
     left, at = set(range(len(lines))), np.zeros(2)
@@ -86,8 +92,7 @@ def in_short_order(lines: Sequence[Array]) -> list[Array]:
         for gone in (end, end ^ 1):
             grid[tuple((ends[gone] // size).astype(int))].discard(gone)
         left.discard(end >> 1)
-        line = lines[end >> 1]
-        found.append(line[::-1] if end & 1 else line)
+        found.append(end)
         at = ends[end ^ 1]
     return found
 

@@ -18,6 +18,7 @@ from dataclasses import dataclass, field, fields
 from typing import Any
 
 MEASURED = "python -m benchmarks.graph_limits"
+_HAIRPINS = "tests/engine/test_hairpins.py"
 
 
 def _limit(value: float, unit: str, why: str, source: str = MEASURED) -> Any:
@@ -95,6 +96,22 @@ class Limits:
     tip_overlap: float = _limit(
         3.5, "times", "as long as its arms part fast is how long two lines overlap in a tip"
     )
+    tip_pens: float = _limit(
+        9.0, "pen widths", "the stem of a V that is a tip, if more: 7 degrees", _HAIRPINS
+    )
+    tip_meets: float = _limit(
+        0.6,
+        "share",
+        "of a stem at which its straight arms meet, at least, or its inverse, at most: so 9 of 10 "
+        "hairpins of 8 to 17 degrees do, and no other stem on 9 held-out pages",
+        _HAIRPINS,
+    )
+    tip_far: float = _limit(
+        3.0, "ridge widths", "the stem of a hairpin over which its arms run straight", _HAIRPINS
+    )
+    tip_eye: float = _limit(
+        3.0, "ridge widths", "the sides of a loop at a stem that is none, but a dent", _HAIRPINS
+    )
     bend_sharp: float = _limit(50.0, "degrees", "a line that turns by more has a bend there")
     bend_at_once: float = _limit(
         0.45, "share", "of a bend happens within half the way; a small circle turns less"
@@ -139,7 +156,12 @@ class Limits:
     )
     # measures
     width_agreed: int = _limit(4, "points", "on either side that agree on a width")
-    width_widest: float = _limit(8.0, "pen widths", "wider is no line")
+    width_widest: float = _limit(
+        16.0,
+        "pen widths",
+        "wider is no line, as in scan.wide_lines",
+        "tests/engine/test_wide_lines.py",
+    )
     # what was most probably never drawn, dust, stubs
     undrawn_sure: float = _limit(
         0.5, "probability", "of never having been drawn from which on a branch goes"

@@ -12,7 +12,14 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from ..involution import MAX_LISTED_DEGREE, best_matching, involutions, pair_matrix, pairs_of
+from ..involution import (
+    MAX_LISTED_DEGREE,
+    best_matching,
+    involutions,
+    local_pairs,
+    pair_matrix,
+    pairs_within,
+)
 from ..values import Alternative, Array, Pair, PlanarGraph
 from .candidates import by_degree, pair_starts
 
@@ -49,25 +56,32 @@ def ranked_alternatives(
         rows = starts[junctions][:, None] + np.arange(degree * (degree - 1) // 2)
         scores = np.asarray(pair_score, np.float64)[rows]
         rank = _listed if degree <= MAX_LISTED_DEGREE else _searched
-        for junction, own, (ways, probability) in zip(
-            junctions, halves, rank(degree, scores), strict=True
+        for junction, own, ranked in zip(
+            junctions.tolist(), halves, rank(degree, scores), strict=True
         ):
-            must = keep.get(int(junction))
-            found[junction] = _collect(own, ways, probability, must)
+            found[junction] = _collect(own, *ranked, keep.get(junction))
     return tuple(found)
 
 
-def _listed(degree: int, scores: Array) -> list[tuple[Array, Array]]:
+_Ranked = tuple[Array, Array, list[tuple[Pair, ...]]]
+"""(n, d) partners, best first, their (n,) probabilities, and the first few as local pairs."""
+
+
+def _listed(degree: int, scores: Array) -> list[_Ranked]:
     """All involutions of each junction, best first, with exact probabilities."""
     ways = involutions(degree)
     total = scores @ pair_matrix(degree).T.astype(np.float64)
     order = np.argsort(-total, axis=1, kind="stable")
     weight = np.exp(total - total.max(1, keepdims=True))
     probability = np.take_along_axis(weight / weight.sum(1, keepdims=True), order, 1)
-    return [(ways[o], p) for o, p in zip(order, probability, strict=True)]
+    pairs, first = local_pairs(degree), order[:, :KEPT].tolist()
+    return [
+        (ways[o], p, [pairs[way] for way in best])
+        for o, p, best in zip(order, probability, first, strict=True)
+    ]
 
 
-def _searched(degree: int, scores: Array) -> list[tuple[Array, Array]]:
+def _searched(degree: int, scores: Array) -> list[_Ranked]:
     """The best involution of each junction and its neighbours, best first."""
     a, b = np.triu_indices(degree, 1)
     found = []
@@ -76,7 +90,7 @@ def _searched(degree: int, scores: Array) -> list[tuple[Array, Array]]:
         matrix[a, b] = matrix[b, a] = row
         ways, totals = neighbourhood(matrix, best_matching(matrix))
         weight = np.exp(totals - totals[0])
-        found.append((ways, weight / weight.sum()))
+        found.append((ways, weight / weight.sum(), [pairs_within(way) for way in ways[:KEPT]]))
     return found
 
 
@@ -116,12 +130,17 @@ def neighbourhood(score: Array, best: Array) -> tuple[Array, Array]:
 
 
 def _collect(
-    halves: Array, ways: Array, probability: Array, must: tuple[Pair, ...] | None
+    halves: Array,
+    ways: Array,
+    probability: Array,
+    pairs: list[tuple[Pair, ...]],
+    must: tuple[Pair, ...] | None,
 ) -> tuple[Alternative, ...]:
     """The first few ways as alternatives, and the one that must be there at its place."""
+    own = halves.tolist()
     chosen = [
-        Alternative(pairs_of(way, halves), float(p))
-        for way, p in zip(ways[:KEPT], probability[:KEPT], strict=True)
+        Alternative(tuple([(own[i], own[j]) for i, j in way]), p)
+        for way, p in zip(pairs, probability[:KEPT].tolist(), strict=True)
     ]
     if must is not None and all(a.pairs != must for a in chosen):
         wanted = local_partner(must, halves)

@@ -1,7 +1,7 @@
 """Log-odds that two half-branches are one line, by the trained network.
 
 The network sees the whole drawing at once: see `encoding` for its input and training/routing for
-its making. OpenCV runs it; its cost grows linearly with the number of junctions, and
+its making. Its cost grows linearly with the number of junctions, and
 large drawings are looked at in parts (`windows`), so that its memory is bounded.
 """
 
@@ -11,19 +11,15 @@ import json
 from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
-from threading import Lock
-from typing import Any
 
 import numpy as np
 
-from .. import weights
+from .. import runtimes, weights
 from ..errors import InvoluteError
 from ..values import Array, Pair, PlanarGraph
 from . import geometric
 from .encoding import encode
 from .windows import windows
-
-_running = Lock()
 
 
 def available() -> bool:
@@ -73,13 +69,14 @@ def score(
 
 def _forward(tokens: Array, pairs: Array, sibling: Array, mask: Array) -> Array:
     """(J, D, D) calibrated scores."""
-    with _running:  # a net holds the state of its last run
-        net, calibration = load(weights.FOLDER)
-        net.setInput(tokens, "tokens")
-        net.setInput(pairs, "pairs")
-        net.setInput(sibling.reshape(-1).astype(np.int64), "sibling")
-        net.setInput(mask, "mask")
-        scores = net.forward()
+    net, calibration = load(weights.FOLDER)
+    inputs = {
+        "tokens": tokens,
+        "pairs": pairs,
+        "sibling": sibling.reshape(-1).astype(np.int64),
+        "mask": mask,
+    }
+    (scores,) = net(inputs, 1)
     return calibrated(scores, mask.sum(1), calibration)
 
 
@@ -96,20 +93,20 @@ def calibrated(scores: Array, degree: Array, calibration: Mapping[str, list[floa
     return scores * scale[row][:, None, None] + shift[row][:, None, None]
 
 
-@cache
-def load(folder: Path) -> tuple[Any, dict[str, list[float]]]:
+def load(folder: Path) -> tuple[runtimes.Net, dict[str, list[float]]]:
     """The network and its calibration: routing.onnx and routing.json of a folder.
 
     Raises:
         InvoluteError: they are missing or can't be read.
     """
-    import cv2
+    return _loaded(folder, runtimes.chosen().name)
 
+
+@cache
+def _loaded(folder: Path, runtime: str) -> tuple[runtimes.Net, dict[str, list[float]]]:
     try:
         calibration = json.loads(weights.read(folder / "routing.json"))
-        # From memory: OpenCV can't open every path that Python can.
-        data = np.frombuffer(weights.read(folder / "routing.onnx"), np.uint8)
-        net = cv2.dnn.readNetFromONNX(data, engine=cv2.dnn.ENGINE_NEW)
-    except (cv2.error, OSError, ValueError) as error:
+        net = runtimes.load(weights.read(folder / "routing.onnx"))
+    except (OSError, ValueError) as error:
         raise InvoluteError("The weights of the routing network are missing or damaged.") from error
     return net, calibration

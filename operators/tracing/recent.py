@@ -10,13 +10,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...engine import Settings
+from ...engine import KeptStages, Settings
 from .sources import Source
 
 if TYPE_CHECKING:
     from ...engine import Drawing
 
 _MAX_KEPT = 12  # drawings; a page of 1,000 strokes takes 2 MB
+KEPT_STAGES = KeptStages(256e6)  # bytes; five pages of 1024 px
+"""What `vectorize` made last, stage by stage: a changed setting runs only what it touches."""
 _kept: OrderedDict[tuple[str, str], Drawing] = OrderedDict()
 
 

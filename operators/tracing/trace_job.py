@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from ...engine import Cancelled, InvoluteError, Settings
 from ..job import Job, unexpected
-from .recent import recall, remember
+from .recent import KEPT_STAGES, recall, remember
 from .sources import Source
 
 if TYPE_CHECKING:
@@ -56,7 +56,9 @@ class TraceJob(Job):
         try:
             drawing = recall(source, self.settings)
             if drawing is None:
-                drawing = vectorize(source.picture, self.settings, self._tick, page=source.page)
+                drawing = vectorize(
+                    source.picture, self.settings, self._tick, page=source.page, kept=KEPT_STAGES
+                )
                 remember(source, self.settings, drawing)
         except (InvoluteError, Cancelled) as problem:
             return TracedSource(source, None, str(problem))

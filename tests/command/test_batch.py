@@ -14,7 +14,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 import pytest
-from involute.command import trace_sequence
+from involute.command import machine, trace_sequence
 from involute.command.batch import Task, run
 from involute.command.receipts import FOLDER as RECEIPTS
 from involute.engine import Drawing, InvoluteError, Settings, vectorize
@@ -75,6 +75,32 @@ def test_processes_make_what_one_process_makes(tmp_path):
         assert (report["width"], report["height"]) == (160, 160)
         assert sum(report["seconds"].values()) > 0
     assert not (tmp_path / "out" / RECEIPTS).exists()
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_held_drawings_and_cycles_are_traced_once(tmp_path, jobs):
+    first, second = make_images(tmp_path, 2)
+    paths = [first, second]
+    for number, again in enumerate((second, first, second, first), 3):
+        paths.append(tmp_path / f"frame_{number:03d}.png")
+        paths[-1].write_bytes(again.read_bytes())
+    tasks = tasks_for(paths, tmp_path / "out")
+    other = Settings(provider="classical", router="geometric", min_length=3.0)
+    tasks += tasks_for(paths[:1], tmp_path / "other", settings=other)
+    outcomes = {o.task: o for o in run(tasks, jobs=jobs)}
+    assert set(outcomes) == set(tasks)
+    ran = [task for task in tasks if outcomes[task].report["seconds"]]
+    assert ran == [tasks[0], tasks[1], tasks[-1]]
+    drawn = [points_of(Drawing.load(task.outputs[0])) for task in tasks[:-1]]
+    assert drawn[0] == drawn[3] == drawn[5] != drawn[1] == drawn[2] == drawn[4]
+
+
+def test_there_are_never_more_processes_than_cores(tmp_path, monkeypatch):
+    monkeypatch.setattr(machine, "cores", lambda: 1)
+    tasks = tasks_for(make_images(tmp_path, 3), tmp_path / "out")
+    with closing(run(tasks, jobs=3)) as results:
+        next(results)
+        assert len(worker_ids()) == 1
 
 
 @pytest.mark.parametrize("jobs", [1, 2])

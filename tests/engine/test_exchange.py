@@ -5,17 +5,21 @@ Strokes, their order, widths to 5 %, layers and frames are held against the draw
 
 from __future__ import annotations
 
+import json
 import re
 import shutil
 import subprocess
 from dataclasses import replace
+from importlib.resources import files
 from itertools import pairwise
 from pathlib import Path
 from xml.etree import ElementTree
 
 import cv2
 import ezdxf
+import jsonschema
 import numpy as np
+import otmcp.pli
 import pypdf
 import pytest
 import svgelements
@@ -23,9 +27,11 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from involute.engine import Drawing, InvoluteError, Settings, Stroke
 from involute.engine.formats import FORMATS, format_of, plot_paths, svg
-from involute.engine.formats.flatten import outline
+from involute.engine.formats import lottie as lottie_file
+from involute.engine.formats.flatten import outline, widths_along
 from involute.engine.formats.pen_shape import pen_shape
 from involute.engine.ink.ink_names import ink_layers
+from rlottie_python import LottieAnimation
 from shapely import LineString, Point, Polygon, unary_union
 from shapely.ops import polygonize
 
@@ -389,6 +395,121 @@ def test_a_sequence_is_the_pages_of_a_pdf(tmp_path):
     frames = [(1, page(wave())), (4, page(ring(), wave(RED)))]
     kind.write_sequence("shot", iter(frames), tmp_path / "shot.pdf")
     assert "Pages:           2" in poppler("pdfinfo", tmp_path / "shot.pdf")
+
+
+# --- Lottie ----------------------------------------------------------------------------------
+
+
+def lottie(path: Path) -> dict:
+    """A Lottie file that follows the schema of the Lottie Animation Community."""
+    document = json.loads(path.read_text("utf-8"))
+    schema = json.loads((files("lottie_specs") / "data/lottie.schema.json").read_text("utf-8"))
+    check = jsonschema.validators.validator_for(schema)(schema)
+    assert [error.message for error in check.iter_errors(document)] == []
+    return document
+
+
+def played(path: Path, frame: int) -> np.ndarray:
+    """(H, W) how much ink rlottie shows at a frame, 0 to 255."""
+    player = LottieAnimation.from_data(path.read_text("utf-8"))
+    width, height = player.lottie_animation_get_size()
+    pixels = player.lottie_animation_render(frame)
+    return np.frombuffer(pixels, np.uint8).reshape(height, width, 4)[..., 3]
+
+
+def test_a_drawing_draws_itself_in_lottie(tmp_path):
+    drawing = everything()
+    drawing.save(tmp_path / "page.lottie.json")
+    document = lottie(tmp_path / "page.lottie.json")
+    assert [layer["nm"] for layer in document["layers"]] == ["Black", "Red", "Solids"]
+    shares = [int((played(tmp_path / "page.lottie.json", k) > 128).sum()) for k in (1, 48, 94, 110)]
+    assert shares == sorted(set(shares))  # more and more of it
+    whole = played(tmp_path / "page.lottie.json", 110)
+    for one in drawing.strokes[:2]:
+        for at in range(2, 39, 4):
+            x, y = (one.points[at]).astype(int)
+            column = whole[y - 10 : y + 10, x].sum() / 255
+            step = one.points[at + 1] - one.points[at - 1]
+            across = column * abs(step[0]) / np.hypot(*step)
+            assert across == pytest.approx(one.widths[at], rel=0.08, abs=0.3)
+
+
+@given(st.lists(st.floats(0.5, 20), min_size=2, max_size=12), st.booleans())
+def test_the_pieces_of_a_stroke_have_its_widths(widths, closed):
+    one = stroke([[10 * k, k % 3] for k in range(len(widths))], widths, closed=closed)
+    line = LineString(outline(one))
+    pieces = lottie_file._pieces(one)
+    assert sum(plot_paths.arc(piece)[-1] for piece, _ in pieces) == pytest.approx(line.length)
+    for (before, _), (after, _) in pairwise(pieces):
+        np.testing.assert_allclose(before[-1], after[0])
+    if not closed:
+        for piece, width in pieces:
+            true = np.interp(piece[:, 0], one.points[:, 0], one.widths)
+            np.testing.assert_allclose(width, true, rtol=0.04)
+
+
+def test_a_sequence_plays_in_lottie(tmp_path):
+    place = tmp_path / "shot.lottie.json"
+    frames = [(101, page(wave())), (104, page(ring())), (106, page())]
+    format_of(place).write_sequence("shot", iter(frames), place)
+    document = lottie(place)
+    assert (document["ip"], document["op"]) == (0, 6)
+    spans = [(layer["ip"], layer["op"]) for layer in document["layers"]]
+    assert spans == [(0, 3), (3, 5)]
+    # rlottie shows a layer one frame longer than the specification says.
+    first, third, fifth, last = (played(place, k) for k in (0, 2, 4, 6))
+    assert np.array_equal(first, third)
+    x, y = frames[0][1].strokes[0].points[20].astype(int)
+    assert first[y, x] == 255
+    assert fifth[y, x] == last.max() == 0
+    assert fifth[200, 250] > 128
+
+
+# --- OpenToonz and Tahoma2D ------------------------------------------------------------------
+
+
+UNIT = 53.33333 / 254  # of a level, per pixel of our page
+
+
+def quadratics(read) -> np.ndarray:
+    """Points along a stroke as the reader of opentoonz-mcp gives it: px, and width in px."""
+    rows = np.array(read.points)
+    t = np.linspace(0, 1, 9)[:, None, None]
+    a, b, c = rows[:-2:2], rows[1:-1:2], rows[2::2]
+    curve = ((1 - t) ** 2 * a + 2 * t * (1 - t) * b + t**2 * c).transpose(1, 0, 2).reshape(-1, 3)
+    return curve / UNIT * (1, -1, 2) + (200, 150, 0)
+
+
+def test_a_level_has_lines_with_thickness(tmp_path):
+    drawing = everything()
+    drawing.save(tmp_path / "page.pli")
+    _, found = otmcp.pli.read(str(tmp_path / "page.pli"))
+    borders = found[4:]
+    assert [read.loop for read in found] == [False, True, False, False, True, True]
+    in_order = [drawing.strokes[k] for k in (0, 2, 1, 3)]  # ink by ink
+    for read, one in zip(found, in_order, strict=False):
+        points = quadratics(read)
+        line = LineString(outline(one))
+        assert max(line.distance(Point(p[:2])) for p in points) < 0.4, one.color
+        assert LineString(points[:, :2]).length == pytest.approx(line.length, rel=0.01)
+        places = [line.project(Point(p[:2]), normalized=True) for p in points]
+        at = np.concatenate([[0], np.cumsum(np.hypot(*np.diff(outline(one), axis=0).T))])
+        true = np.interp(places, at / at[-1], widths_along(one))
+        np.testing.assert_allclose(points[1:-1, 2], true[1:-1], rtol=0.05)
+    for read, ring_of in zip(borders, drawing.fills[0], strict=True):
+        area = Polygon(quadratics(read)[:, :2]).area
+        assert area == pytest.approx(Polygon(ring_of).area, rel=0.01)
+
+
+def test_a_level_has_a_style_per_ink_and_the_frames_of_a_sequence(tmp_path):
+    place = tmp_path / "shot.pli"
+    frames = [(3, page(wave(), wave(RED, 99))), (7, page(wave(RED))), (8, page())]
+    format_of(place).write_sequence("shot", iter(frames), place)
+    data, found = otmcp.pli.read(str(place))
+    assert [read.frame for read in found] == [3, 3, 7]
+    assert data.count(b"Black") == data.count(b"Red") == 1
+    channels = b"".join(bytes((1, value)) for value in (*RED, 255))
+    assert data.count(channels) == 1
 
 
 # --- inks ------------------------------------------------------------------------------------

@@ -36,6 +36,27 @@ def test_every_stroke_of_either_pen_is_one_stroke(broad, grain):
     assert drawing.fidelity.lost < 0.01
 
 
+def test_a_brush_that_swells_and_one_of_twelve_pens_are_lines_of_their_width():
+    image = np.full((700, 700), 255, np.uint8)
+    for x in range(60, 640):  # 20 to 34 px wide
+        cv2.circle(image, (x, 150), round(10 + 7 * np.sin((x - 60) / 580 * np.pi)), 0, -1)
+    cv2.line(image, (80, 330), (620, 380), 0, 56, cv2.LINE_AA)
+    for y in (480, 540, 600):
+        cv2.line(image, (30, y), (660, y + 30), 0, 4, cv2.LINE_AA)
+    drawing = vectorize(image, Settings(router="geometric"))
+    widths = sorted(float(np.median(stroke.widths)) for stroke in drawing.strokes)
+    assert not drawing.fills
+    assert np.allclose(widths, [5, 5, 5, 30, 57], rtol=0.2), widths
+    assert drawing.fidelity.lost < 0.01
+
+
+def test_a_line_that_runs_into_a_shape_is_no_broad_line():
+    image = page(22)
+    cv2.circle(image, (140, 90), 45, 0, -1, cv2.LINE_AA)
+    wide = find_wide_lines(read_scan(image, Settings()), Settings())
+    assert len(wide.widths) == 2  # the bow alone
+
+
 def test_the_user_says_from_which_width_on_it_is_an_area():
     drawing = vectorize(page(22), Settings(solid_width=15, router="geometric"))
     assert len(drawing.strokes) == 3
