@@ -731,8 +731,10 @@ TEXTS = {
     "Which way along the timeline": "In welche Richtung auf der Zeitleiste",
     "The next doubtful keyframe": "Der nächste zweifelhafte Keyframe",
     "The doubtful keyframe before": "Der zweifelhafte Keyframe davor",
-    "No other keyframe has doubtful junctions.": "Kein anderer Keyframe hat zweifelhafte Kreuzungen.",
     "{doubts} doubts on {some} of {all} keyframes": (
         "{doubts} Zweifel auf {some} von {all} Keyframes"
+    ),
+    "No other keyframe has doubtful junctions.": (
+        "Kein anderer Keyframe hat zweifelhafte Kreuzungen."
     ),
 }
