@@ -5,9 +5,9 @@ from __future__ import annotations
 import errno
 import filecmp
 import os
+import platform
 import re
 import secrets
-import socket
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
@@ -32,7 +32,7 @@ _REASONS = {
     errno.ELOOP: "links there lead in a circle; choose another folder",
 }
 _PART = re.compile(r"\.(\w{8})-(\w{8})-(\d+)-\w{16}\.part(\.\w+)?@?")
-_HOST = blake2b(socket.gethostname().encode("utf-8", "replace"), digest_size=4).hexdigest()
+_HOST = blake2b(platform.node().encode("utf-8", "replace"), digest_size=4).hexdigest()
 _ABANDONED = 86400.0  # s; no drawing takes a day to write
 
 
