@@ -9,7 +9,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from contextlib import suppress
+from dataclasses import replace
 from itertools import accumulate
+from os import PathLike
 from pathlib import Path
 from time import perf_counter
 from typing import Any, TypeVar
@@ -26,6 +28,7 @@ from .kept_stages import KeptStages, Source, keys
 from .routing import route
 from .scan import read_scan
 from .scan.registration import set_aside
+from .scan.resolution import dots_per_inch
 from .scan.screentone import without_screentone
 from .scan.wide_lines import WideLines, find_wide_lines
 from .settings import Settings
@@ -177,6 +180,10 @@ class _Trace:
             found = routed(graph, evidence, self._settings, route)
         return self._made("routing", found)
 
+    def _dpi(self) -> float | None:
+        source = self._source
+        return dots_per_inch(source, self._page) if isinstance(source, str | PathLike) else None
+
     def drawing(self) -> Drawing:
         if (found := self._recalled("strokes")) is not None:
             return found
@@ -187,7 +194,7 @@ class _Trace:
             graph, fills, scan = _as_they_lay(graph, fills, scan)
             drawing = Drawing.from_routing(graph, routing, scan, self._settings, fills)
         with self._clock("check"):
-            drawing = drawing.compared_with(scan)
+            drawing = replace(drawing.compared_with(scan), dpi=self._dpi())
         return self._made("strokes", drawing)
 
 
