@@ -14,6 +14,7 @@ from __future__ import annotations
 import argparse
 import hashlib
 import importlib.util
+import json
 import os
 import re
 import shutil
@@ -49,13 +50,17 @@ RUNTIMES = {  # name: (its version, part of its wheel's file name for each platf
 _EPOCH = (2026, 1, 1, 0, 0, 0)  # one date for all files: the zip is reproducible
 
 
-def build(platform: str, output: Path, runtime: str | None = None) -> Path:
+def build(platform: str, output: Path, runtime: str | None = None, website: str = "") -> Path:
     """Build the zip for one platform, with a faster runtime if one is named; return its path.
+
+    The website of whoever publishes it goes into the manifest.
 
     Raises:
         SystemExit: a wheel can't be had.
     """
     manifest = (ROOT / "blender_manifest.toml").read_text("utf-8")
+    if website:
+        manifest = manifest.replace("\ntype = ", f"\nwebsite = {json.dumps(website)}\ntype = ", 1)
     parsed = tomllib.loads(manifest)
     wheels = [Path(w) for w in parsed["wheels"] if _fits(Path(w).name, platform)]
     fetch(platform, [w.name for w in wheels])
@@ -125,15 +130,19 @@ def validate(path: Path) -> None:
 def list_repository(folder: Path) -> None:
     """Have Blender list the newest zips of a folder: index.json, and index.html to drop them from.
 
-    What is not of this version goes to the folder `older` in it, out of the list: of two versions
-    Blender takes any. Needs the `bpy` package.
+    What is not of this version goes to the folder `older` in it, out of the list, and so does the
+    earlier of two zips for one platform: of two Blender would take any. Needs the `bpy` package.
     """
     parsed = tomllib.loads((ROOT / "blender_manifest.toml").read_text("utf-8"))
-    older = folder / "older"
-    for path in folder.glob(f"{parsed['id']}-*.zip"):
-        if not path.name.startswith(f"{parsed['id']}-{parsed['version']}-"):
-            older.mkdir(exist_ok=True)
-            path.replace(older / path.name)
+    newest: dict[str, Path] = {}
+    zips = sorted(folder.glob(f"{parsed['id']}-*.zip"), key=lambda path: path.stat().st_mtime)
+    for path in zips:
+        _, version, platform, *_ = path.stem.split("-")
+        if version == parsed["version"]:
+            newest[platform] = path
+    for path in set(zips) - set(newest.values()):
+        (folder / "older").mkdir(exist_ok=True)
+        path.replace(folder / "older" / path.name)
     _blender_extension("server-generate", f"--repo-dir={folder}", "--html")
 
 
@@ -176,11 +185,16 @@ def main(argv: list[str] | None = None) -> int:
         metavar="FOLDER",
         help="put the zips there instead, and list them so that Blender installs from it",
     )
+    parser.add_argument(
+        "--website", default="", metavar="URL", help="where users find help: it goes into the zips"
+    )
     parser.add_argument("--no-validate", action="store_true", help="don't run Blender's checker")
     options = parser.parse_args(argv)
     output = options.repository or options.output
     for name in options.platform:
-        path = build(host_platform() if name == "host" else name, output, options.runtime)
+        path = build(
+            host_platform() if name == "host" else name, output, options.runtime, options.website
+        )
         if not options.no_validate:
             validate(path)
         digest = hashlib.sha256(path.read_bytes()).hexdigest()

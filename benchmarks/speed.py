@@ -1,6 +1,6 @@
 """How long a trace takes, by page and by stage, how much memory, and how both grow with the page.
 
-    python -m benchmarks.speed [--pages scan] [--sizes 512 1024 2048 4096] [--largest]
+    python -m benchmarks.speed [--pages scan] [--sizes 512 1024 2048 4096] [--largest] [--fast]
                                [--methods NAME ...] [--repeat 3] [--json FILE]
 
 A page of N px is laid out of cells of 1024 px side by side, so that the ink grows with the area, as
@@ -11,16 +11,19 @@ it does in a larger drawing by the same hand:
               the true strokes of the benchmark, drawn at twice, once and half their size, with
               thin pens (1.5 px) and thick ones (6 px)
 
-Every method and page runs in a process of its own, once to warm up (that loads the networks) and
-then `--repeat` times; the median counts. Memory is the peak of the process, less what it held
-before the trace. Times of one run can be compared with each other, and hardly with another's: what
-counts are ratios. Where bpy is installed, the times of `benchmarks.blender_costs` follow.
+`involute` runs its networks in OpenCV, as everywhere; `--fast` adds it in ONNX Runtime, where that
+is installed. Every method and page runs in a process of its own, once to warm up (that loads the
+networks) and then `--repeat` times; the median counts. Memory is the peak of the process, less what
+it held before the trace. Times of one run can be compared with each other, and hardly with
+another's: what counts are ratios. Where bpy is installed, the times of `benchmarks.blender_costs`
+follow.
 """
 
 from __future__ import annotations
 
 import argparse
 import json
+import os
 import sys
 import time
 from collections.abc import Iterator, Sequence
@@ -33,6 +36,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import numpy as np
+from involute.engine import runtimes
 
 from .judged_pages import DATA, pages
 from .methods import METHODS
@@ -46,6 +50,7 @@ _ZOOMS = {"sparse": 2.0, "ordinary": 1.0, "dense": 0.5}
 _PENS = {"thin": 1.5, "thick": 6.0}  # px
 KINDS = ("scan", *(f"{zoom}, {pen}" for zoom in _ZOOMS for pen in _PENS))
 _YARDSTICK = "skeleton + greedy"
+_FAST = "involute in ONNX Runtime"
 _METHODS = ("involute", _YARDSTICK, "nijiGPen's method", "autotrace")
 
 
@@ -53,7 +58,7 @@ _METHODS = ("involute", _YARDSTICK, "nijiGPen's method", "autotrace")
 class Timing:
     """One method on one page: medians over the runs.
 
-    cpu, wall: seconds; stages: wall seconds of each of our stages (no rival tells its own);
+    cpu, wall: seconds; stages: CPU seconds of each of our stages (no rival tells its own);
     first: wall seconds of the first trace in the process, imports and loading included;
     memory, base: MB, the peak above the base, and what the process held before.
     """
@@ -119,6 +124,7 @@ def measure(method: str, kind: str, size: int, repeat: int, folder: Path = DATA)
     """Time one method on one page; meant for a fresh process."""
     import cv2
 
+    os.environ[runtimes.VARIABLE] = "onnxruntime" if method == _FAST else "opencv"
     with TemporaryDirectory() as temporary:
         path = Path(temporary) / "page.png"
         cv2.imwrite(str(path), page(kind, 512, folder))
@@ -147,13 +153,19 @@ def measure(method: str, kind: str, size: int, repeat: int, folder: Path = DATA)
 
 
 def _trace(method: str, path: Path) -> tuple[int, dict[str, float]]:
-    """The number of strokes, and the seconds of the stages where they are known."""
-    if method != "involute":
+    """The number of strokes, and the CPU seconds of the stages where they are known."""
+    if method not in ("involute", _FAST):
         return len(METHODS[method](path)), {}
     from involute.engine import vectorize
 
-    drawing = vectorize(path)
-    return len(drawing.strokes), dict(drawing.seconds)
+    began: dict[str, float] = {}
+
+    def tell(stage: str, done: float) -> None:
+        began.setdefault(stage, time.process_time())
+
+    drawing = vectorize(path, progress=tell)
+    at = [*began.values(), time.process_time()]
+    return len(drawing.strokes), dict(zip(began, np.diff(at).tolist(), strict=True))
 
 
 def _resident() -> float:
@@ -189,11 +201,14 @@ def figures(timings: Sequence[Timing]) -> dict[str, dict[str, float]]:
     for t in timings:
         row = rows.setdefault(f"{t.kind}, {t.size} px", {})
         name = "" if t.method == "involute" else f"{t.method}: "
+        yardstick = at.get((_YARDSTICK, t.kind, t.size))
+        if yardstick and t.method == _FAST:
+            row[f"fast, times {_YARDSTICK}"] = t.cpu / max(yardstick.cpu, 1e-9)
         row[f"{name}CPU s/MP"] = t.megapixel
         own = at.get(("involute", t.kind, t.size))
         if own and own is not t:
             row[f"times {t.method}"] = own.cpu / max(t.cpu, 1e-9)
-        if t.stages:
+        if t.stages and t.method == "involute":
             whole = sum(t.stages.values())
             row |= {f"share of {name}": s / whole for name, s in t.stages.items()}
             row |= {"wall s": t.wall, "peak MB": t.memory, "strokes": t.strokes}
@@ -217,12 +232,13 @@ def report(timings: Sequence[Timing]) -> str:
     parts = []
     if ours:
         rows = [
-            [f"{t.kind}, {t.size} px", *(f"{s:.2f}" for s in t.stages.values()), f"{t.wall:.2f}",
-             f"{t.cpu:.2f}", f"{t.megapixel:.2f}", f"{t.memory:.0f}", str(t.strokes)]
+            [f"{t.kind}, {t.size} px{_aside(t)}", *(f"{s:.2f}" for s in t.stages.values()),
+             f"{t.wall:.2f}", f"{t.cpu:.2f}", f"{t.megapixel:.2f}",
+             f"{t.memory:.0f}", str(t.strokes)]
             for t in ours
         ]  # fmt: skip
         head = ["page", *ours[0].stages, "wall s", "CPU s", "CPU s/MP", "peak MB", "strokes"]
-        parts.append("Seconds by stage\n\n" + markdown(head, rows))
+        parts.append("CPU seconds by stage\n\n" + markdown(head, rows))
         parts.append(f"First trace of 512 px in a new process: {ours[0].first:.2f} s.")
     methods = list(dict.fromkeys(t.method for t in timings))
     at = {(t.method, t.kind, t.size): t for t in timings}
@@ -236,6 +252,10 @@ def report(timings: Sequence[Timing]) -> str:
         rows = [[kind, *(f"{e:.2f}" for e in own.values())] for kind, own in grown.items()]
         parts.append(markdown(["grows with the area to the power of", *methods], rows))
     return "\n\n".join(parts)
+
+
+def _aside(t: Timing) -> str:
+    return ", ONNX Runtime" if t.method == _FAST else ""
 
 
 def _beside(t: Timing, at: dict[tuple[str, str, int], Timing]) -> str:
@@ -286,18 +306,20 @@ def main(argv: Sequence[str] | None = None) -> Figures:
     )  # fmt: skip
     parser.add_argument("--sizes", type=int, nargs="+", default=SIZES, metavar="PX")
     parser.add_argument("--largest", action="store_true", help=f"also {_LARGEST} px")
+    parser.add_argument("--fast", action="store_true", help="also with ONNX Runtime")
     parser.add_argument("--methods", nargs="+", choices=METHODS, default=_METHODS, metavar="NAME")
     parser.add_argument("--repeat", type=int, default=3)
     parser.add_argument("--json", type=Path, help="write all figures to this file")
     options = parser.parse_args(argv)
     kinds = KINDS if "all" in options.pages else options.pages
     sizes = [*options.sizes, *([_LARGEST] if options.largest else [])]
+    if options.fast and runtimes.here()[0].name != "onnxruntime":
+        parser.error("--fast needs ONNX Runtime: pip install onnxruntime")
+    methods = [*options.methods, *([_FAST] if options.fast else [])]
     timings = []
     # A new process each, so that one peak of memory does not hide the next.
     with ProcessPoolExecutor(1, get_context("spawn"), max_tasks_per_child=1) as pool:
-        for kind, size, method in (
-            (k, s, m) for k in kinds for s in sizes for m in options.methods
-        ):
+        for kind, size, method in ((k, s, m) for k in kinds for s in sizes for m in methods):
             job = pool.submit(measure, method, kind, size, options.repeat, options.data)
             timings.append(job.result())
             print(f"{kind}, {size} px, {method}: {timings[-1].wall:.2f} s", file=sys.stderr)

@@ -37,6 +37,7 @@ class Task:
     """One image to trace into one or more files; how the name of each ends says its format.
 
     receipt: where it is noted what was made; "" = beside the first output.
+    turn: look at the drawing in the same pose however its page was turned; see `vectorize`.
     """
 
     source: str
@@ -44,6 +45,7 @@ class Task:
     settings: Settings = field(default_factory=Settings)
     page: int = 0
     receipt: str = ""
+    turn: bool = True
 
 
 @dataclass(frozen=True)
@@ -251,10 +253,11 @@ def _traced(task: Task, key: str, progress: Callable[[str, float], None] | None)
     """The drawing of a task; that of the last one, at no cost, where it has the same key."""
     from ..engine.pipeline import vectorize
 
-    if key and key in _newest:
+    key = key and f"{key} {task.turn}"
+    if key in _newest:
         return _newest[key].with_seconds({})
     _newest.clear()
-    drawing = vectorize(task.source, task.settings, progress, page=task.page)
+    drawing = vectorize(task.source, task.settings, progress, page=task.page, turn=task.turn)
     if key:
         _newest[key] = drawing
     return drawing

@@ -53,7 +53,8 @@ def find(inputs: Iterable[str]) -> Found:
                 found, others = _in_folder(path)
                 left_out += others
             elif not path.exists() and glob.has_magic(text):
-                found = [p for p in map(Path, glob.iglob(text, recursive=True)) if p.is_file()]
+                matches = map(Path, glob.iglob(text, recursive=True))
+                found = _each_once(path for path in matches if path.is_file())
             else:
                 found = None
         if found is None:
@@ -92,6 +93,19 @@ def _in_folder(folder: Path) -> tuple[list[Path], list[tuple[Path, str]]]:
         else:
             found.append(path)
     return found, others
+
+
+def _each_once(paths: Iterable[Path]) -> list[Path]:
+    """The paths without those that only lead round a link to a folder above.
+
+    A link to a picture is a picture of its own: a drawing that a sequence holds.
+    """
+    shortest_first = sorted(paths, key=lambda path: len(path.parts))
+    place = {folder: os.path.realpath(folder) for folder in {p.parent for p in shortest_first}}
+    found: dict[tuple[str, str], Path] = {}
+    for path in shortest_first:
+        found.setdefault((place[path.parent], path.name), path)
+    return list(found.values())
 
 
 def natural(path: Path) -> list[tuple[int, int, str]]:

@@ -12,6 +12,7 @@ from pathlib import Path
 
 from ..engine.errors import InvoluteError
 from ..engine.formats import Format, either, format_of
+from ..engine.formats.whole_file import why_not
 
 _LONGEST = 240  # bytes of a title; 255 with suffix, and room for its receipt
 
@@ -173,7 +174,5 @@ def make_folder(folder: Path) -> Path:
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise InvoluteError(
-            f"Can't make the folder {folder}: {error.strerror or error}; choose another."
-        ) from None
+        raise InvoluteError(f"Can't make the folder {folder}: {why_not(error)}.") from None
     return folder

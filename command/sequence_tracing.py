@@ -80,7 +80,7 @@ def part_tasks(
     folder = make_folder(Path(parts))
     places = [folder / part_name(frame) for frame in frames]
     return [
-        batch.Task(f.path, (str(at),), settings, f.page, str(receipts.path_for(at)))
+        batch.Task(f.path, (str(at),), settings, f.page, str(receipts.path_for(at)), turn=False)
         for f, at in zip(frames, places, strict=True)
     ]
 

@@ -43,6 +43,7 @@ def main() -> None:
             settings(**asked["settings"]),
             asked["page"],
             asked["receipt"],
+            asked["turn"],
         )
         answers.write(json.dumps(batch.perform(task)) + "\n")
         answers.flush()

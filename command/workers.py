@@ -88,6 +88,7 @@ class _Worker:
             "page": task.page,
             "settings": task.settings.as_dict(),
             "receipt": task.receipt,
+            "turn": task.turn,
         }
         process = self._process
         try:

@@ -2,6 +2,7 @@
 
 before_after    a real scan, and its strokes
 inks            an animator's page, and its layers
+stages          a part of a scan at every stage of the method
 
 From the root of the project.
 """
@@ -10,12 +11,17 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterable
+from itertools import pairwise
 from pathlib import Path
 
 import cv2
 import numpy as np
-from involute.engine import Stroke, vectorize
+from involute.engine import Settings, Stroke, vectorize
+from involute.engine.centerline import provider_for
+from involute.engine.fills.solids import split_solids
 from involute.engine.formats import png
+from involute.engine.graph import Evidence, run_passes
+from involute.engine.scan import read_scan
 
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
@@ -99,6 +105,63 @@ def layer(strokes: Iterable[Stroke], shape: tuple[int, ...]) -> Array:
     return page
 
 
+def stages() -> None:
+    """A part of the elephant: scan, ink, center lines, graph with its junctions, strokes."""
+    path, settings = ROOT / "examples" / "elephant.jpg", Settings()
+    scan = read_scan(path, settings)
+    lines, _ = split_solids(scan, settings)
+    maps = provider_for(settings)(lines, lambda _: None)
+    graph = run_passes(Evidence.of(lines, maps), settings)
+    drawing = vectorize(path)
+    wide, scale = 260, 2  # px of the scan; enlarged so much
+    x, y = _busiest(np.array([j.position for j in drawing.junctions]), scan.size, wide)
+
+    def panel(image: Array, size: float) -> Array:
+        """The part of a picture that has `size` px for each of the scan's."""
+        a, b, c, d = (round(v * size) for v in (y, y + wide, x, x + wide))
+        part = image[a:b, c:d]
+        part = cv2.cvtColor(part, cv2.COLOR_GRAY2BGR) if part.ndim == 2 else part
+        return cv2.resize(part, (wide * scale,) * 2, interpolation=cv2.INTER_CUBIC)
+
+    def gray(values: Array) -> Array:
+        return np.uint8(255 * (1 - np.clip(values, 0, 1)))
+
+    branches = np.full((scan.size[1] * scale, scan.size[0] * scale, 3), 255, np.uint8)
+    turned = np.random.default_rng(1).permutation(180)
+    for number, (first, last) in enumerate(pairwise(graph.offsets)):
+        hue = np.array([[[turned[number % 180], 200, 190]]], np.uint8)
+        color = cv2.cvtColor(hue, cv2.COLOR_HSV2BGR)[0, 0].tolist()
+        line = np.int32(np.round(graph.points[first:last] * scan.scale * scale * 16))
+        cv2.polylines(branches, [line], False, color, 2, cv2.LINE_AA, 4)
+    for junction in drawing.junctions:
+        at = tuple(int(v) for v in np.round(np.array(junction.position) * scale))
+        cv2.circle(branches, at, 6, (40, 40, 220), 2, cv2.LINE_AA)
+    shown = [
+        panel(cv2.imread(str(path)), 1),
+        panel(gray(scan.ink), 1 / scan.scale),
+        panel(gray(maps.centerline), 1 / scan.scale),
+        panel(branches, scale),
+        panel(png.render(drawing, rings=False)[..., ::-1], 1),
+    ]
+    rule = np.full((wide * scale, 6, 3), 150, np.uint8)
+    row = np.hstack([part for one in shown for part in (one, rule)][:-1])
+    small = cv2.resize(row, None, fx=0.65, fy=0.65, interpolation=cv2.INTER_AREA)
+    cv2.imwrite(str(ROOT / "docs" / "stages.png"), small, [cv2.IMWRITE_PNG_COMPRESSION, 9])
+
+
+def _busiest(places: Array, size: tuple[int, int], wide: int) -> tuple[int, int]:
+    """The corner (x, y) of the square with most of the places, (N, 2), in it."""
+    corners = [
+        (x, y)
+        for y in range(0, size[1] - wide, wide // 4)
+        for x in range(0, size[0] - wide, wide // 4)
+    ]
+    inside = [np.all((places >= c) & (places < np.array(c) + wide), axis=1).sum() for c in corners]
+    return corners[int(np.argmax(inside))]
+
+
+PICTURES = {"before_after": before_after, "inks": inks, "stages": stages}
+
 if __name__ == "__main__":
-    for name in sys.argv[1:] or ("before_after", "inks"):
-        {"before_after": before_after, "inks": inks}[name]()
+    for name in sys.argv[1:] or PICTURES:
+        PICTURES[name]()

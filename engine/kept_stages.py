@@ -65,16 +65,16 @@ class KeptStages:
             self._size = 0.0
 
 
-def keys(source: Source, page: int, settings: Settings) -> Mapping[str, str]:
+def keys(source: Source, page: int, settings: Settings, turn: bool = True) -> Mapping[str, str]:
     """Stage -> the key of its result for a picture.
 
     Args:
-        source, page, settings: as `vectorize` takes them.
+        source, page, settings, turn: as `vectorize` takes them.
 
     Raises:
         OSError: the picture can't be read.
     """
-    key = f"{_content(source)} {page}"
+    key = f"{_content(source)} {page} {turn}"
     # What the first stages ask of a setting that belongs to a later one.
     key += f" {settings.provider == 'given'}"
     found = {}

@@ -9,7 +9,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from contextlib import suppress
+from dataclasses import replace
 from itertools import accumulate
+from os import PathLike
+from pathlib import Path
 from time import perf_counter
 from typing import Any, TypeVar
 
@@ -27,10 +30,12 @@ from .rough.cleaning import Bundled, bundled, cleaned, is_rough
 from .routing import route
 from .scan import read_scan
 from .scan.registration import set_aside
+from .scan.resolution import dots_per_inch
 from .scan.screentone import without_screentone
 from .scan.wide_lines import WideLines, find_wide_lines
 from .settings import Settings
-from .values import LineMaps, PlanarGraph, Routing, Scan
+from .values import Array, LineMaps, PlanarGraph, Pose, Routing, Scan
+from .vector_page import drawing_of_vectors, is_vector
 from .wide_pens import look_again
 
 Progress = Callable[[str, float], None]
@@ -55,16 +60,19 @@ def vectorize(
     progress: Progress | None = None,
     *,
     page: int = 0,
+    turn: bool = True,
     kept: KeptStages | None = None,
 ) -> Drawing:
     """Trace one drawing.
 
     Args:
         source: path of an image, or an (H, W), (H, W, 3) or (H, W, 4) array, 8 or 16 bit or float
-            in [0, 1].
+            in [0, 1]; or an .svg, whose lines are routed anew.
         settings: see `Settings`.
         progress: called as progress(stage, fraction of the whole); may raise `Cancelled`.
         page: which page of a TIFF with several.
+        turn: look at the drawing in the same pose however its page was turned or mirrored. False
+            for the frames of a sequence, which are looked at alike, each as it lies.
         kept: what was made in earlier traces; only what the settings have changed since runs, and
             what it makes is kept there, too, even when the trace is cancelled.
 
@@ -77,7 +85,11 @@ def vectorize(
         Cancelled: the progress callback asked to stop.
     """
     clock = _Clock(progress)
-    drawing = _Trace(source, page, settings or Settings(), clock, kept).drawing()
+    if is_vector(source):
+        with clock("graph"):
+            drawing = drawing_of_vectors(Path(source), settings or Settings(), vectorize)
+    else:
+        drawing = _Trace(source, page, settings or Settings(), turn, clock, kept).drawing()
     return drawing.with_seconds(clock.seconds)
 
 
@@ -89,15 +101,17 @@ class _Trace:
         source: Source,
         page: int,
         settings: Settings,
+        turn: bool,
         clock: _Clock,
         kept: KeptStages | None,
     ) -> None:
         self._source, self._page, self._settings = source, page, settings
+        self._turn = turn and not settings.align  # those places are of the page as it lies
         self._clock, self._kept = clock, kept
         self._keys: Mapping[str, str] = {}
         if kept:
             with suppress(OSError):  # the first stage says what is wrong with the picture
-                self._keys = keys(source, page, settings)
+                self._keys = keys(source, page, settings, turn)
         self._own: dict[str, object] = {}  # what several stages of this trace want
 
     def _recalled(self, stage: str) -> Any | None:
@@ -114,7 +128,8 @@ class _Trace:
         if (found := self._recalled("scan")) is None:
             settings = self._settings
             with self._clock("scan"):
-                found = set_aside(read_scan(self._source, settings, page=self._page), settings)
+                found = read_scan(self._source, settings, page=self._page, turn=self._turn)
+                found = set_aside(found, settings)
                 found = without_screentone(without_inks(found, settings), settings)
             self._made("scan", found)
         self._own["scan"] = found
@@ -167,6 +182,10 @@ class _Trace:
             found = routed(graph, evidence, self._settings, route)
         return self._made("routing", found)
 
+    def _dpi(self) -> float | None:
+        source = self._source
+        return dots_per_inch(source, self._page) if isinstance(source, str | PathLike) else None
+
     def drawing(self) -> Drawing:
         if (found := self._recalled("strokes")) is not None:
             return found
@@ -174,12 +193,13 @@ class _Trace:
         scan, (_, _, fills) = self.scan(), self.solids()
         self._own = {}  # the strokes need no more than that
         with self._clock("strokes"):
+            graph, fills, scan = _as_they_lay(graph, fills, scan)
             drawing = Drawing.from_routing(graph, routing, scan, self._settings, fills)
             bundles = _bundles(graph, routing, scan, self._settings)
             if bundles is not None:
                 drawing = _clean(drawing, bundles, scan, self._settings, fills)
         with self._clock("check"):
-            drawing = drawing.compared_with(scan)
+            drawing = replace(drawing.compared_with(scan), dpi=self._dpi())
         return self._made("strokes", drawing)
 
 
@@ -201,6 +221,21 @@ def _clean(
     made = cleaned(bundles, settings, (scan.ink.shape[0], scan.ink.shape[1]))
     lines = Drawing.from_routing(made.graph, made.routing, scan, settings, fills)
     return lines.cleaned_from(drawn, made.said)
+
+
+def _as_they_lay(
+    graph: PlanarGraph, fills: list[Fill], scan: Scan
+) -> tuple[PlanarGraph, list[Fill], Scan]:
+    """The lines and areas of a page that was turned, and the page, as it lay."""
+    size = scan.size[0] / scan.scale, scan.size[1] / scan.scale
+
+    def place(points: Array) -> Array:
+        return scan.pose.points_back(points, size)
+
+    if scan.pose == Pose():
+        return graph, fills, scan
+    areas = [tuple(place(ring) for ring in fill) for fill in fills]
+    return graph.moved(place), areas, scan.as_it_lay()
 
 
 class _Clock:

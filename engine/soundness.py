@@ -47,6 +47,7 @@ def check_drawing(drawing: Drawing) -> None:
     _check_pencil(drawing)
     check_routing(drawing.graph, drawing.routing)
     _check_walks(drawing)
+    _check_lengths(drawing)
     for number, fill in enumerate(drawing.fills):
         _need(len(fill) > 0, f"fill {number} has no outline")
         _need(min(map(len, fill)) > 0, f"an outline of fill {number} has no points")
@@ -189,10 +190,23 @@ def _check_stroke(stroke: Stroke, where: str, runs: bool = True) -> None:
     if stroke.handles is not None:
         _table(stroke.handles, "f", (count, 2, 2), f"the handles of {where}")
         _within(stroke.handles, _FARTHEST, f"the handles of {where}")
-    # A ring may have one anchor, and its length from the handles.
-    places = stroke.points if stroke.handles is None else stroke.handles.reshape(-1, 2)
-    alike = (places == stroke.points[0]).all() and (stroke.points == stroke.points[0]).all()
-    _need(not alike, f"{where} has no length: all its points are one")
+
+
+def _check_lengths(drawing: Drawing) -> None:
+    """No stroke is a point, unless it stands for a line between junctions that is one."""
+    graph = drawing.graph
+    for number, stroke in enumerate(drawing.strokes):
+        # A ring may have one anchor, and its length from the handles.
+        places = stroke.points if stroke.handles is None else stroke.handles.reshape(-1, 2)
+        alike = (places == stroke.points[0]).all() and (stroke.points == stroke.points[0]).all()
+        if alike:
+            branches = (stroke.branches >> 1).tolist()
+            course = [graph.points[graph.offsets[b] : graph.offsets[b + 1]] for b in branches]
+            ends = graph.ends[branches]
+            ends = ends[ends[:, 0] != ends[:, 1]]
+            hangs = (graph.degrees[ends] > 1).any()  # two junctions in one place
+            point = hangs and not np.ptp(np.concatenate(course), axis=0).any()
+            _need(point, f"stroke {number} has no length: all its points are one")
 
 
 def _check_walks(drawing: Drawing) -> None:

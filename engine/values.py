@@ -7,7 +7,8 @@ the scale where its pens are 2 to 8 px wide; `Scan.scale` leads back to the pixe
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -15,6 +16,42 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[Any]
+
+
+@dataclass(frozen=True)
+class Pose:
+    """One of the eight ways in which a sheet can lie: how a page was turned to be looked at.
+
+    transposed: rows and columns are exchanged, first; mirrored, flipped: then it is mirrored left
+        to right, and top to bottom.
+    """
+
+    transposed: bool = False
+    mirrored: bool = False
+    flipped: bool = False
+
+    def turned(self, page: Array) -> Array:
+        """A page (H, W, ...) as it is looked at."""
+        page = np.swapaxes(page, 0, 1) if self.transposed else page
+        return np.ascontiguousarray(page[self._ways])
+
+    def back(self, page: Array) -> Array:
+        """A page (H, W, ...) that was turned, as it lay."""
+        page = page[self._ways]
+        return np.ascontiguousarray(np.swapaxes(page, 0, 1) if self.transposed else page)
+
+    @property
+    def _ways(self) -> tuple[slice, slice]:
+        rows, columns = (-1 if way else 1 for way in (self.flipped, self.mirrored))
+        return slice(None, None, rows), slice(None, None, columns)
+
+    def points_back(self, points: Array, size: tuple[float, float]) -> Array:
+        """Points (..., 2) on a turned page, on the page as it lay, `size` = (width, height)."""
+        width, height = size[::-1] if self.transposed else size
+        x, y = points[..., 0], points[..., 1]
+        x = np.asarray(width, points.dtype) - x if self.mirrored else x
+        y = np.asarray(height, points.dtype) - y if self.flipped else y
+        return np.stack([y, x] if self.transposed else [x, y], -1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,6 +66,7 @@ class Scan:
     aligned: False when it was to be aligned to other pages and has nothing to align by.
     light: whether it was taken, by itself, for light lines on a dark ground.
     notes: what was left out of it, a sentence each.
+    pose: how the page was turned; ink and color are as it is looked at, size as it lay.
     """
 
     ink: Array
@@ -39,6 +77,14 @@ class Scan:
     aligned: bool = True
     light: bool = False
     notes: tuple[str, ...] = ()
+    pose: Pose = Pose()
+
+    def as_it_lay(self) -> Scan:
+        """The same page, turned back."""
+        if self.pose == Pose():
+            return self
+        color = None if self.color is None else self.pose.back(self.color)
+        return replace(self, ink=self.pose.back(self.ink), color=color, pose=Pose())
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,6 +152,10 @@ class PlanarGraph:
             np.zeros(1, np.int32),
             np.zeros((0, 2), np.int32),
         )
+
+    def moved(self, place: Callable[[Array], Array]) -> PlanarGraph:
+        """The same graph where a function puts its vertices and points, (N, 2) -> (N, 2)."""
+        return replace(self, vertices=place(self.vertices), points=place(self.points))
 
     @property
     def branch_count(self) -> int:

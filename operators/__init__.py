@@ -16,6 +16,7 @@ from importlib import import_module
 _VERBS = (
     "tracing.background",
     "tracing.trace",
+    "tracing.trace_again",
     "tracing.import_scan",
     "tracing.use_defaults",
     "tracing.use_preset",
@@ -31,6 +32,7 @@ _VERBS = (
     "junctions.accept_inside",
     "junctions.ask_again",
     "junctions.go_to_junction",
+    "junctions.doubtful_frame",
     "junctions.preview",
     "junctions.choose",
     "junctions.review",
@@ -76,8 +78,9 @@ def unregister() -> None:
     from . import blender_command
     from .grease_pencil import saving
     from .junctions import lift_bias
-    from .tracing import background, use_defaults
+    from .tracing import background, live, use_defaults
 
+    live.unregister()
     blender_command.unregister()
     use_defaults.unregister()
     background.unregister()

@@ -1,4 +1,4 @@
-"""Words in the user's language. The English texts in the code are the keys: see `ui.german`."""
+"""Words in the user's language. The English texts in the code are the keys: see `ui.language`."""
 
 from __future__ import annotations
 

@@ -32,6 +32,7 @@ SOURCES = {
     "icons_permissive": 0.5,
     "fishdraw": 0.3,
     "tangles": 1.0,
+    "own": 6.0,  # of whoever trains: `own_drawings`
 }
 # Drawings with so few strokes that they say little alone.
 _DOODLES = {"quickdraw_raw", "quickdraw_simplified", "icons_permissive", "kanjivg"}

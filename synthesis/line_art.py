@@ -31,6 +31,7 @@ SET_WEIGHTS = {
     "icons_permissive": 0.7,
     "kanjivg": 1.5,
     "tangles": 1.0,
+    "own": 6.0,  # of whoever trains: `own_drawings`
 }
 
 

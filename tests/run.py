@@ -94,15 +94,15 @@ def in_blender(version: str, bpy: str, python: str) -> tuple[bool, str]:
 
 def in_fast(seed: int) -> tuple[bool, str]:
     home = ROOT / ".venv-fast"
-    source = (ROOT / "pyproject.toml").read_text("utf-8")
+    what = [PYTEST, HYPOTHESIS, "scipy==1.17.1", "--editable", f"{ROOT}[fast]"]
 
     def make() -> None:
         _check([*_uv(), "venv", "--clear", "--python", _interpreter("3.11"), str(home)])
         install = [*_uv(), "pip", "install", "--python", str(_python(home))]
         # OpenCV 5 asks for numpy 2, and runs on what Blender brings.
-        _check([*install, f"--overrides={_numpy(home)}", "--editable", f"{ROOT}[fast,test]"])
+        _check([*install, f"--overrides={_numpy(home)}", *what])
 
-    _once(home, source, make)
+    _once(home, "\n".join([*what, (ROOT / "pyproject.toml").read_text("utf-8")]), make)
     tests = ("runtimes", "centerline_network", "routing_network", "pipeline")
     return _pytest(_python(home), *(f"tests/engine/test_{t}.py" for t in tests), _seeded(seed))
 

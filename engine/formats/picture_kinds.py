@@ -65,7 +65,12 @@ KINDS = (
     Kind("OpenEXR", (".exr",), (b"\x76\x2f\x31\x01",), _SAVE),
     Kind("JPEG XL", (".jxl",), (b"\xff\x0a", b"\0\0\0\x0cJXL "), _SAVE),
     Kind("Radiance", (".hdr",), (b"#?RADIANCE", b"#?RGBE"), _SAVE),
-    Kind("SVG", (".svg",), (b"<svg", b"<?xml"), "it holds lines already; open it as it is"),
+    Kind(
+        "SVG",
+        (".svg",),
+        (b"<svg", b"<?xml"),
+        "it holds lines already; `involute trace` on the command line joins them anew",
+    ),
     Kind("PostScript", (".eps", ".ps", ".ai"), (b"%!PS", b"\xc5\xd0\xd3\xc6"), _SAVE),
     Kind("Krita", (".kra",), (), _SAVE),
     Kind("GIMP", (".xcf",), (b"gimp xcf",), _SAVE),

@@ -22,6 +22,11 @@ _END = np.arange(2)
 
 def without_doubles(lines: Sequence[Array], pen: float) -> list[Array]:
     """The lines (N, 2) without the stretches that another, longer one has drawn already."""
+    return [line for _, line in undoubled(lines, pen)]
+
+
+def undoubled(lines: Sequence[Array], pen: float) -> list[tuple[int, Array]]:
+    """What `without_doubles` leaves, each piece with the number of its line."""
     if not lines:
         return []
     order = np.argsort([-arc(line)[-1] for line in lines], kind="stable")
@@ -35,10 +40,10 @@ def without_doubles(lines: Sequence[Array], pen: float) -> list[Array]:
         line = lines[k]
         for first, last in _free(hit, round(_SHORTEST / _SAMPLE)):
             if first == 0 and last == len(hit) - 1:
-                kept.append((k, line))
+                kept.append((int(k), line))
             elif last > first:
-                kept.append((k, _part(line, places[rank][first], places[rank][last])))
-    return [line for _, line in sorted(kept, key=lambda found: found[0])]
+                kept.append((int(k), _part(line, places[rank][first], places[rank][last])))
+    return sorted(kept, key=lambda found: found[0])
 
 
 def joined(lines: Sequence[Array], pen: float) -> list[Array]:

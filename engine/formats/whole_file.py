@@ -5,9 +5,9 @@ from __future__ import annotations
 import errno
 import filecmp
 import os
+import platform
 import re
 import secrets
-import socket
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
@@ -24,6 +24,7 @@ _REASONS = {
     errno.ENOSPC: "the disk is full; make room or choose another disk",
     errno.EDQUOT: "your disk quota is used up; make room or choose another disk",
     errno.EFBIG: "files of that size are not allowed there; choose another disk",
+    errno.EEXIST: "a file of that name is in the way; choose another name",
     errno.ENOENT: "its folder doesn't exist; make it first",
     errno.ENOTDIR: "its folder is a file; choose another folder",
     errno.EISDIR: "a folder of that name is in the way; choose another name",
@@ -32,8 +33,13 @@ _REASONS = {
     errno.ELOOP: "links there lead in a circle; choose another folder",
 }
 _PART = re.compile(r"\.(\w{8})-(\w{8})-(\d+)-\w{16}\.part(\.\w+)?@?")
-_HOST = blake2b(socket.gethostname().encode("utf-8", "replace"), digest_size=4).hexdigest()
+_HOST = blake2b(platform.node().encode("utf-8", "replace"), digest_size=4).hexdigest()
 _ABANDONED = 86400.0  # s; no drawing takes a day to write
+
+
+def why_not(error: OSError) -> str:
+    """Why something can't be written, and what to do about it; half a sentence."""
+    return _REASONS.get(error.errno or 0, error.strerror or str(error))
 
 
 @contextmanager
@@ -76,7 +82,7 @@ def whole_files(
             if not (before_moving and _same(part, place)):
                 os.replace(part, place)
     except OSError as error:
-        reason = _REASONS.get(error.errno or 0, error.strerror or str(error))
+        reason = why_not(error)
         at = dict(zip(map(str, parts), places, strict=False)).get(str(error.filename), places[0])
         raise InvoluteError(f"Can't write {at}: {reason}.") from error
     finally:

@@ -2,6 +2,7 @@
 
 image_file   a file is decoded
 picture      its values are checked, transparent becomes white
+pose         turned to the way in which its drawing is always looked at
 polarity     dark lines on light, whichever it was
 sheet        what lies beyond the sheet in a photograph goes
 pen_width    how wide its pen is, which decides at what scale it is traced
@@ -14,11 +15,12 @@ import cv2
 import numpy as np
 
 from ..settings import Settings
-from ..values import Array, Scan
+from ..values import Array, Pose, Scan
 from .paper import flattened
 from .pen_width import measured_pen
 from .picture import Source, as_bytes, checked_picture, darkest_gray, unit
 from .polarity import is_light_on_dark, with_lightness_inverted
+from .pose import pose_of
 from .sheet import find_sheet, without_surroundings
 
 _PEN_RANGE = (1.5, 8.0)  # working px; pens within stay as they are
@@ -30,7 +32,7 @@ _DEFAULT_PEN = 3.0  # px; of a page without a line
 _FLAT_WHOLE = 4e6  # px; up to here the pen is measured on the page that is worked on
 
 
-def read_scan(source: Source, settings: Settings, page: int = 0) -> Scan:
+def read_scan(source: Source, settings: Settings, page: int = 0, turn: bool = False) -> Scan:
     """Read a picture and prepare it for tracing.
 
     Args:
@@ -39,6 +41,7 @@ def read_scan(source: Source, settings: Settings, page: int = 0) -> Scan:
         settings: polarity, pen_width and provider are used. With provider "given" the picture is
             taken as it is: ink = its luminance, scale 1.
         page: which page of a TIFF with several.
+        turn: whether the page is turned to the pose in which its drawing is always looked at.
 
     Returns:
         The page at the scale where its pen is 1.5 to 8 px wide; a blank page has no ink at all.
@@ -47,10 +50,13 @@ def read_scan(source: Source, settings: Settings, page: int = 0) -> Scan:
         InvoluteError: the picture can't be read, or is black all over.
     """
     picture = checked_picture(source, page, settings.polarity)
+    size = picture.shape[1], picture.shape[0]
+    pose = pose_of(picture) if turn else Pose()
+    picture = pose.turned(picture)
     height, width = picture.shape[:2]
     if settings.provider == "given":
         luma = cv2.cvtColor(picture, cv2.COLOR_RGB2GRAY) if picture.ndim == 3 else picture
-        return Scan(unit(luma), None, 1.0, (width, height), settings.pen_width or 2.0)
+        return Scan(unit(luma), None, 1.0, size, settings.pen_width or 2.0, pose=pose)
     light = is_light_on_dark(picture, settings)
     if light:
         picture = with_lightness_inverted(picture)
@@ -71,7 +77,8 @@ def read_scan(source: Source, settings: Settings, page: int = 0) -> Scan:
         notes = (*notes, "Printed rules were left out.")
     color = as_bytes(_resized(picture, scale)) if picture.ndim == 3 else None
     guessed = light and settings.polarity == "auto"
-    return Scan(ink, color, scale, (width, height), pen / scale, light=guessed, notes=notes)
+    pen /= scale
+    return Scan(ink, color, scale, size, pen, light=guessed, notes=notes, pose=pose)
 
 
 def _working_scale(pen: float, width: int, height: int) -> float:

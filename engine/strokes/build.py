@@ -22,6 +22,7 @@ _FAINTEST = 0.1  # opacity of a stroke at least, so that nothing is there that c
 _WIDTH_STEP = 0.12  # change of width, in pen widths, that is worth a point of its own
 _OPACITY_STEP = 0.12
 _COARSER = 2.0  # times these steps for curves, which are to have few points
+_POINT = 1e-3  # px; a line that is shorter is a point to whoever draws it
 _APART = 1e3  # between samples; so much more than any change of the ink
 
 
@@ -36,7 +37,7 @@ def build(page: Page, walks: Sequence[Walk]) -> list[Stroke]:
     raw = page.points[lines.sample]
     corner = find_corners(raw, lines)
     points = sharpen(raw, lines, corner, page.pen)
-    points = smooth(points, lines, corner, page.settings.smoothing)
+    points = _with_length(smooth(points, lines, corner, page.settings.smoothing), raw, lines)
     widths, opacity = _ink(page, lines)
     kept, handles = _few(page, lines, corner, points, widths, opacity)
 
@@ -73,6 +74,7 @@ def _few(
     """
     keep = corner | lines.joint
     keep[lines.start] = keep[lines.stop - 1] = True
+    keep |= _turning(points, lines)
     tolerance = page.settings.tolerance
     # A change of the ink is as good a reason for a point as a bend.
     ink = np.column_stack([widths / (_WIDTH_STEP * page.pen), opacity / _OPACITY_STEP])
@@ -82,6 +84,30 @@ def _few(
         keep = simplify(np.column_stack([along, ink / _COARSER]), keep, 1.0)
         return fit(points, lines.first, keep, corner, tolerance)
     return simplify(np.column_stack([points, ink * tolerance]), keep, tolerance), None
+
+
+def _with_length(points: Array, raw: Array, lines: Lines) -> Array:
+    """The smoothed points; a line that smoothing has drawn together to a point stays as it was."""
+    away, run, begin = _away(points, lines)
+    gone = np.maximum.reduceat(away, begin) < _POINT
+    return np.where(gone[run][:, None], raw, points)
+
+
+def _turning(points: Array, lines: Lines) -> Array:
+    """(N,) bool: the farthest sample of each open line that comes back to where it began: with its
+    ends alone it would be two points in one place."""
+    away, run, begin = _away(points, lines)
+    closed = lines.sample[lines.start] == lines.sample[lines.stop - 1]
+    back = ~closed & (away[lines.stop - 1] < _POINT)
+    return back[run] & (away >= np.maximum.reduceat(away, begin)[run])
+
+
+def _away(points: Array, lines: Lines) -> tuple[Array, Array, Array]:
+    """(N,) px of each sample from where its line begins, (N,) the line's number, and (S,) where its
+    run begins."""
+    begin = lines.first[lines.start]
+    run = np.searchsorted(begin, lines.first)
+    return np.hypot(*(points - points[lines.start][run]).T), run, begin
 
 
 def _ink(page: Page, lines: Lines) -> tuple[Array, Array]:

@@ -124,6 +124,11 @@ def set_column(cel: object, name: str, values: Array) -> None:
     _set_tail(cel, {name: column("INT", values)}, 0, "CURVE")
 
 
+def set_points(cel: object, name: str, values: Column) -> None:
+    """Overwrite one attribute of all points."""
+    _set_tail(cel, {name: values}, 0, "POINT")
+
+
 def append(cel: object, curves: Curves) -> None:
     """Add strokes to a Grease Pencil drawing, after those that are there."""
     if len(curves) == 0:

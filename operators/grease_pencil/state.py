@@ -30,7 +30,7 @@ from . import cels, change, stored_trace
 from .core.map_fit import fitted
 from .core.pixel_map import PixelMap
 from .core.stroke_arrays import HALF, ROUTING, TRACE
-from .stored_trace import UnsoundTraceError, reading
+from .stored_trace import Picture, UnsoundTraceError, reading
 
 if TYPE_CHECKING:
     import bpy
@@ -139,12 +139,53 @@ def check_writable(data: bpy.types.ID) -> None:
         _traces(data)
 
 
-def add(data: bpy.types.ID, drawing: Drawing, pixel_map: PixelMap, source: str) -> int:
+def add(
+    data: bpy.types.ID,
+    drawing: Drawing,
+    pixel_map: PixelMap,
+    source: str,
+    picture: Picture | None = None,
+) -> int:
     """Store a new trace and return its key."""
     traces = _writable(data)
     key = _free_key(data, drawing, source)
-    traces[str(key)], _ = stored_trace.made(drawing, pixel_map, source)
+    traces[str(key)], _ = stored_trace.made(drawing, pixel_map, source, picture)
     return key
+
+
+def picture_of(data: bpy.types.ID, key: int) -> Picture:
+    """The picture that a trace was made from; without a path and an image where nobody knows."""
+    entry = _entry(data, key)
+    with reading():
+        return Picture() if entry is None else stored_trace.picture_of(entry)
+
+
+def doubtful_frames(data: bpy.types.ID) -> dict[int, int]:
+    """The keyframes with traced strokes, ascending, and how many of their junctions are doubtful.
+
+    Quick: no drawing is decoded. What is damaged counts as certain.
+    """
+    keys: dict[int, set[int]] = {}
+    for layer in data.layers:
+        for frame in layer.frames:
+            column = None if frame.drawing is None else cels.read_column(frame.drawing, TRACE)
+            if column is not None and column.any():
+                there = keys.setdefault(frame.frame_number, set())
+                there |= set(np.unique(column[column > 0]).tolist())
+    found = {}
+    for frame, some in sorted(keys.items()):
+        found[frame] = 0
+        for key in some:
+            with contextlib.suppress(InvoluteError), reading():
+                entry = _entry(data, key)
+                found[frame] += 0 if entry is None else stored_trace.doubtful_of(entry)
+    return found
+
+
+def forget(data: bpy.types.ID, key: int) -> None:
+    """Drop what is stored of a trace, if no stroke carries its key any more."""
+    if not _users(list(cels.all_cels(data)), key) and str(key) in _traces(data):
+        del _traces(data)[str(key)]
 
 
 def store(data: bpy.types.ID, frame: int, before: Trace, after: Trace) -> Trace:
@@ -161,7 +202,8 @@ def store(data: bpy.types.ID, frame: int, before: Trace, after: Trace) -> Trace:
             entry, before.drawing, after.drawing, after.pixel_map, before.stamp
         )
     else:
-        entry, stamp = stored_trace.made(after.drawing, after.pixel_map, after.source)
+        picture = stored_trace.picture_of(entry)
+        entry, stamp = stored_trace.made(after.drawing, after.pixel_map, after.source, picture)
     _writable(data)[str(after.key)] = entry
     for _, cel in cels.cels_at(data, frame):
         mine = cels.read_column(cel, TRACE)

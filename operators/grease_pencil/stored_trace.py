@@ -4,7 +4,9 @@
      "routing": bytes, "stamp": str,     what was changed since (see `change`); hash of it all
      "earlier": {stamp: bytes},          routings that undo may bring back, as differences
      "unmarked": str,                    stamp that strokes without a mark have; missing = "stamp"
-     "placement": 9 floats, "source": str}
+     "placement": 9 floats, "source": str,
+     "path": str, "page": int, "image": str,   the picture, to trace it again
+     "doubtful": int}                          how many junctions are worth a look; may be missing
 
 A file may be cut short, or edited by other programs: whatever is wrong is said in one sentence.
 """
@@ -15,6 +17,7 @@ import zlib
 from collections import OrderedDict
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass, replace
 from hashlib import blake2b
 from typing import TYPE_CHECKING, Any
 
@@ -49,6 +52,19 @@ _WRONG = (
 _decoded: OrderedDict[str, Drawing] = OrderedDict()
 
 
+@dataclass(frozen=True)
+class Picture:
+    """Where the picture of a drawing is: a file and its page, or an image of the .blend file."""
+
+    path: str = ""
+    page: int = 0
+    image: str = ""
+
+    def as_entry(self) -> dict[str, Any]:
+        """What is stored of it."""
+        return {"path": self.path, "page": self.page, "image": self.image}
+
+
 class UnsoundTraceError(InvoluteError):
     """What was stored is damaged; the sentence is `UNSOUND`."""
 
@@ -76,6 +92,23 @@ def stamp_of(entry: Any) -> str:
 def source_of(entry: Any) -> str:
     """Where the drawing came from, in words."""
     return _text(entry, "source")
+
+
+def doubtful_of(entry: Any) -> int:
+    """How many junctions are worth a look; 0 where nobody counted them."""
+    count = entry.get("doubtful", 0)
+    if not isinstance(count, int):
+        raise TypeError("doubtful")
+    return count
+
+
+def picture_of(entry: Any) -> Picture:
+    """The picture that it was traced from, as far as somebody noted it."""
+    values = {name: entry[name] for name in ("path", "page", "image") if name in entry}
+    kinds = {"path": str, "page": int, "image": str}
+    if any(not isinstance(value, kinds[name]) for name, value in values.items()):
+        raise TypeError("picture")
+    return Picture(**values)
 
 
 def pixel_map_of(entry: Any) -> PixelMap:
@@ -140,17 +173,22 @@ def base_of(entry: Any) -> Drawing:
     return drawing
 
 
-def made(drawing: Drawing, pixel_map: PixelMap, source: str) -> tuple[dict[str, Any], str]:
+def made(
+    drawing: Drawing, pixel_map: PixelMap, source: str, picture: Picture | None = None
+) -> tuple[dict[str, Any], str]:
     """A new entry, and its stamp."""
     from ...engine.formats import drawing_json
 
+    drawing = replace(drawing, edits=None)  # they are in its graph
     blob = zlib.compress(drawing_json.dumps(drawing).encode("utf-8"), 3)
     base = _hash(blob)
     stamp = _hash(base.encode())
     remember(base, drawing)
     remember(stamp, drawing)
     entry = {"drawing": blob, "base": base, "routing": b"", "stamp": stamp}
-    return entry | {"placement": pixel_map.as_list(), "source": source}, stamp
+    entry |= {"placement": pixel_map.as_list(), "source": source}
+    entry["doubtful"] = len(drawing.doubtful)
+    return entry | (picture or Picture()).as_entry(), stamp
 
 
 def rerouted(
@@ -169,6 +207,7 @@ def rerouted(
         earlier.pop(known, None)
         earlier[known] = change.packed(base, one, differs=True)
     changed = {name: entry[name] for name in ("drawing", "base", "source")}
+    changed |= picture_of(entry).as_entry() | {"doubtful": len(drawing.doubtful)}
     changed |= {"routing": routing, "stamp": stamp, "placement": pixel_map.as_list()}
     changed["earlier"] = dict(list(earlier.items())[-_MAX_EARLIER:])
     changed["unmarked"] = _text(entry, "unmarked") if "unmarked" in entry else stamp_of(entry)

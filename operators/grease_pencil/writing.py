@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import bpy
 import numpy as np
@@ -27,6 +27,13 @@ _NOT_RENDERED = "(not rendered)"  # a view layer that nobody has
 _FILLS_BY_STROKE = (5, 1, 0)  # since then strokes say whether they are filled, not materials
 
 
+class Into(NamedTuple):
+    """A layer by its name, and the number of a material slot; None = a material per ink."""
+
+    layer: str
+    material: int | None
+
+
 def write(
     data: bpy.types.ID,
     frame: int,
@@ -35,23 +42,27 @@ def write(
     key: int,
     *,
     alone: bool = False,
+    clear: bool = True,
+    into: Into | None = None,
 ) -> None:
     """Write a drawing as the keyframe `frame`: a layer per ink, solid blacks on a layer below,
     the pencil strokes of a rough drawing on another one.
 
-    What these layers showed at that very frame is replaced; other layers stay.
+    What was traced onto these layers at that very frame is replaced; other layers stay.
 
     Args:
         alone: for a sequence: end what other layers still show of traces at earlier frames.
+        clear: else all that is there stays.
+        into: one layer for the strokes of all inks, with one material.
     """
     written: set[str] = set()
     if drawing.fills:
         written.add(FILL_LAYER)
-        fills = _keyframe(data, FILL_LAYER, frame), data, drawing.fills
+        fills = _keyframe(data, FILL_LAYER, frame, clear), data, drawing.fills
         _write_fills(*fills, FILL_LAYER, (0, 0, 0), pixel_map, key)
     if drawing.settings.regions and drawing.regions:
         written.add(REGION_LAYER)
-        fills = _keyframe(data, REGION_LAYER, frame), data, drawing.regions
+        fills = _keyframe(data, REGION_LAYER, frame, clear), data, drawing.regions
         white = (255, 255, 255)
         _write_fills(*fills, REGION_LAYER, white, pixel_map, key, drawing.region_colors)
     if drawing.pencil and drawing.pencil.strokes:
@@ -59,21 +70,25 @@ def write(
         _write_pencil(data, frame, drawing, pixel_map, key)
     inks = ink_layers(drawing.strokes)
     for ink in inks:
-        written.add(ink.name)
-        material = _material_slot(data, ink.name, ink.color, fill=False)
+        layer = into.layer if into else ink.name
+        written.add(layer)
+        material = into.material if into else None
+        if material is None:
+            material = _material_slot(data, ink.name, ink.color, fill=False)
         strokes = [drawing.strokes[number] for number in ink.numbers]
         columns = stroke_curves(strokes, pixel_map, key, material)
-        cels.append(_keyframe(data, ink.name, frame), columns)
+        cels.append(_keyframe(data, layer, frame, clear and not into), columns)
     if not inks and not drawing.fills:
-        _keyframe(data, ink_name((0, 0, 0)), frame)  # a blank page is a blank keyframe
+        blank = into.layer if into else ink_name((0, 0, 0))
+        _keyframe(data, blank, frame, clear and not into)  # a blank page is a blank keyframe
     if alone:
         for layer in [layer for layer, cel in cels.cels_at(data, frame) if _has_traces(cel)]:
             if layer.name not in written:
                 _keyframe(data, layer.name, frame)
 
 
-def _keyframe(data: bpy.types.ID, name: str, frame: int) -> object:
-    """The cel of a layer's keyframe without traced strokes; made when it is missing."""
+def _keyframe(data: bpy.types.ID, name: str, frame: int, clear: bool = True) -> object:
+    """The cel of a layer's keyframe, if asked without traced strokes; made when it is missing."""
     layer = data.layers.get(name)
     if layer is None:
         layer = data.layers.new(name, set_active=name not in _BELOW)
@@ -84,7 +99,7 @@ def _keyframe(data: bpy.types.ID, name: str, frame: int) -> object:
                     data.layers.move_bottom(data.layers[below])
     key = next((k for k in layer.frames if k.frame_number == frame), None)
     cel = (key or layer.frames.new(frame)).drawing
-    if _has_traces(cel):
+    if clear and _has_traces(cel):
         traced = cels.read_column(cel, TRACE)
         cel.remove_strokes(indices=np.flatnonzero(traced).tolist())
     return cel

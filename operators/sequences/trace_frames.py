@@ -14,6 +14,7 @@ from ...engine import InvoluteError
 from ...engine.sequence import Frame
 from ..grease_pencil import cels, state, writing
 from ..grease_pencil.core.pixel_map import PixelMap, front_view, on_empty
+from ..grease_pencil.stored_trace import Picture
 from ..language import message
 from ..tracing.background import JobOperator
 from ..tracing.file_choice import ChosenFiles, FileChoice
@@ -108,6 +109,7 @@ class INVOLUTE_OT_trace_sequence(
         self._name, self._empty, self._target = "", "", ""
         self._pixel_map: PixelMap | None = None
         self._written, self._kept, self._failed = 0, 0, []
+        self._pictures: dict[int, Picture] = {}
         options = {"start": self.start if self.own_start else None, "step": self.step}
         empty = context.active_object
         if self.directory:
@@ -130,6 +132,7 @@ class INVOLUTE_OT_trace_sequence(
             place_drawing(
                 context, (1, 1), self.place, self.pixels_per_metre
             )  # says now if it can't be
+        self._pictures = {f.frame: Picture(str(f.path), f.page or 0) for f in frames}
         return SequenceJob(
             frames,
             _aligned(engine_settings(self), frames) if self.align else engine_settings(self),
@@ -151,7 +154,8 @@ class INVOLUTE_OT_trace_sequence(
             if self.resume and unchanged and state.keys_at_exactly(obj.data, frame):
                 self._kept += 1
                 continue
-            key = state.add(obj.data, drawing, self._pixel_map, f"{self._name} {frame}")
+            name = f"{self._name} {frame}"
+            key = state.add(obj.data, drawing, self._pixel_map, name, self._pictures.get(frame))
             writing.write(obj.data, frame, drawing, self._pixel_map, key, alone=True)
             self._written += 1
 

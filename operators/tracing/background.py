@@ -151,7 +151,7 @@ def is_at_work(context: bpy.types.Context) -> bool:
     """Is the artist moving, drawing or sculpting something at this very moment?"""
     windows = context.window_manager.windows
     return any(
-        operator.bl_idname.startswith(_AT_WORK)
+        operator and operator.bl_idname.startswith(_AT_WORK)  # None: one whose class has gone
         for window in windows
         for operator in getattr(window, "modal_operators", ())
     )

@@ -49,6 +49,20 @@ class PlacingSettings:
             min=0.0,
             soft_max=10000.0,
         ),
+        "order": EnumProperty(
+            name="Stroke Order",
+            description="In which order and direction the strokes are drawn",
+            items=[
+                ("PAGE", "As Found", "As the lines were found on the page"),
+                (
+                    "HAND",
+                    "As by Hand",
+                    "Long outlines first, from left to right and top to bottom, one neighborhood "
+                    "after the other; for the Build modifier",
+                ),
+            ],
+            default="PAGE",
+        ),
         "show_scan": BoolProperty(
             name="Scan Behind",
             description="Show the picture behind the strokes that were traced from it",

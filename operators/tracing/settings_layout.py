@@ -50,6 +50,7 @@ def draw_placing(layout: bpy.types.UILayout, source: object) -> None:
     field = column.row()
     field.active = source.place != "CAMERA"
     field.prop(source, "pixels_per_metre")
+    column.prop(source, "order")
     column.prop(source, "show_scan")
 
 

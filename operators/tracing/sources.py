@@ -11,6 +11,7 @@ import numpy as np
 
 from ...engine import InvoluteError
 from ...engine.formats.picture_kinds import SUFFIXES
+from ..grease_pencil.stored_trace import Picture
 from ..language import message
 
 if TYPE_CHECKING:
@@ -31,6 +32,12 @@ class Source:
     page: int = 0
     empty: str | None = None
     image: str | None = None
+
+    @property
+    def noted(self) -> Picture:
+        """What is kept of it, to find it again."""
+        path = self.picture if isinstance(self.picture, str) else ""
+        return Picture(path, self.page, self.image or "")
 
 
 def from_files(paths: Sequence[str]) -> list[Source]:
@@ -71,6 +78,24 @@ def from_image(image: bpy.types.Image, empty: bpy.types.Object | None = None) ->
             )
         )
     return Source(name, _pixels(image), empty=shown_by, image=image.name)
+
+
+def noted(picture: Picture, name: str) -> Source:
+    """A picture that was noted when it was traced.
+
+    Raises:
+        InvoluteError: it is not there any more.
+    """
+    import bpy
+
+    if picture.path and Path(bpy.path.abspath(picture.path)).is_file():
+        return Source(name, bpy.path.abspath(picture.path), picture.page)
+    if picture.image and picture.image in bpy.data.images:
+        return from_image(bpy.data.images[picture.image])
+    if picture.path:
+        said = "There is no file {path}; put it back, or trace the picture as a new object."
+        raise InvoluteError(message(said, path=picture.path))
+    raise InvoluteError("Nobody noted which picture this was; trace it as a new object.")
 
 
 def _pixels(image: bpy.types.Image) -> np.ndarray:

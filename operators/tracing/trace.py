@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -12,6 +13,7 @@ from bpy.props import EnumProperty, StringProperty
 from ...engine import InvoluteError
 from ..grease_pencil import cels, state, writing
 from ..grease_pencil.core.pixel_map import PixelMap, front_view, on_empty
+from ..grease_pencil.writing import Into
 from ..language import message
 from ..view.framing import look_straight_at
 from . import sources
@@ -36,6 +38,12 @@ def target_property() -> object:
         items=[
             ("NEW", "New Object", "A Grease Pencil object per drawing"),
             ("ACTIVE", "Active Object", "A keyframe of the active Grease Pencil object"),
+            (
+                "LAYER",
+                "Active Layer",
+                "The active layer of the active Grease Pencil object, with its active material; "
+                "what is there stays",
+            ),
         ],
         default="NEW",
         options={"SKIP_SAVE"},
@@ -63,13 +71,14 @@ class INVOLUTE_OT_trace(JobOperator, ChosenFiles, PlacingOptions, TraceOptions, 
 
     def begin(self, context: bpy.types.Context) -> TraceJob:
         """Read the sources and settings; what can't be met later is said now."""
-        self._target = ""
-        if self.target == "ACTIVE":
+        self._target, self._into = "", None
+        if self.target != "NEW":
             obj = context.active_object
             if not cels.is_grease_pencil(obj) or not obj.data.is_editable:
                 raise InvoluteError("Make a Grease Pencil object of this file the active one.")
             state.check_writable(obj.data)
             self._target = obj.name
+            self._into = into_active_layer(obj) if self.target == "LAYER" else None
         else:
             place_drawing(context, (1, 1), self.place, self.pixels_per_metre)
         return TraceJob(self._sources(context), engine_settings(self))
@@ -145,7 +154,8 @@ class INVOLUTE_OT_trace(JobOperator, ChosenFiles, PlacingOptions, TraceOptions, 
         target = bpy.data.objects.get(self._target) if self._target else None
         if cels.is_grease_pencil(target) and target.data.is_editable:
             for result in done:
-                put(target, result, frame, front_view(result.drawing.size))
+                pixel_map = front_view(result.drawing.size)
+                put(target, result, frame, pixel_map, order=self.order, into=self._into)
             return
         objects = [self._new(context, result, frame) for result in done]
         if context.mode == "OBJECT":
@@ -170,7 +180,7 @@ class INVOLUTE_OT_trace(JobOperator, ChosenFiles, PlacingOptions, TraceOptions, 
         obj = new_object(result.source.name)
         obj.matrix_world = matrix
         (context.collection or context.scene.collection).objects.link(obj)
-        put(obj, result, frame, pixel_map)
+        put(obj, result, frame, pixel_map, order=self.order)
         if self.show_scan:
             put_behind(obj, result.source, size, pixel_map)
         return obj
@@ -191,18 +201,60 @@ def new_object(name: str) -> bpy.types.Object:
     return bpy.data.objects.new(name, cels.collection().new(name))
 
 
-def put(obj: bpy.types.Object, result: TracedSource, frame: int, pixel_map: PixelMap) -> None:
+def into_active_layer(obj: bpy.types.Object) -> Into:
+    """The layer that an artist would draw on, and the material that she would draw with.
+
+    Raises:
+        InvoluteError: there is no layer, or it is locked.
+    """
+    layer = obj.data.layers.active
+    if layer is None:
+        raise InvoluteError("The Grease Pencil object has no layer; add one to trace into.")
+    if cels.is_locked(layer):
+        said = message("The layer {name!r} is locked; unlock it to trace into it.", name=layer.name)
+        raise InvoluteError(said)
+    material = None if obj.active_material is None else obj.active_material_index
+    return Into(layer.name, material)
+
+
+def put(
+    obj: bpy.types.Object,
+    result: TracedSource,
+    frame: int,
+    pixel_map: PixelMap,
+    *,
+    order: str = "PAGE",
+    into: Into | None = None,
+) -> None:
     """Write a traced drawing into an object, strokes and routing state.
 
     An image Empty that shows the picture takes precedence over `pixel_map`.
+
+    Args:
+        order: "HAND" = strokes as a hand would draw them.
+        into: one layer for all strokes.
     """
     source, drawing = result.source, result.drawing
     empty = bpy.data.objects.get(source.empty) if source.empty else None
     if empty is not None:
         pixel_map = on_empty(empty, drawing.size)
         obj.matrix_world = empty.matrix_world.copy()
-    key = state.add(obj.data, drawing, pixel_map, source.name)
-    writing.write(obj.data, frame, drawing, pixel_map, key)
+    if order == "HAND":
+        drawing = by_hand(drawing)
+    key = state.add(obj.data, drawing, pixel_map, source.name, source.noted)
+    writing.write(obj.data, frame, drawing, pixel_map, key, clear=into is None, into=into)
+
+
+def by_hand(drawing: Drawing) -> Drawing:
+    """The same drawing with its strokes in the order and direction in which a hand draws."""
+    from ...engine.sequence.follow import reverse
+    from ...engine.strokes.hand_order import hand_order
+
+    strokes = [
+        reverse(drawing.strokes[number]) if turned else drawing.strokes[number]
+        for number, turned in hand_order(drawing.strokes, drawing.size)
+    ]
+    return replace(drawing, strokes=tuple(strokes))
 
 
 CLASSES = (INVOLUTE_OT_trace,)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
@@ -9,6 +10,7 @@ from bpy.types import PropertyGroup
 
 from ...engine import Settings
 from ...engine.settings import ABOUT, DEFAULTS, About
+from . import live
 from .placing import PlacingSettings
 
 if TYPE_CHECKING:
@@ -54,7 +56,18 @@ def for_operators(settings: type) -> type:
     return type(f"{settings.__name__}Options", (), {"__annotations__": made})
 
 
-class INVOLUTE_PG_trace_settings(TraceSettings, PlacingSettings, PropertyGroup):
+def _watched(settings: type) -> type:
+    """The same properties, which tell when they change."""
+    made = {}
+    for name, prop in settings.__annotations__.items():
+        made[name] = prop.function(**(prop.keywords | {"update": live.changed}))
+    return type(f"Watched{settings.__name__}", (), {"__annotations__": made})
+
+
+WatchedSettings = _watched(TraceSettings)
+
+
+class INVOLUTE_PG_trace_settings(WatchedSettings, PlacingSettings, PropertyGroup):
     """The settings that the sidebar shows, kept in the scene."""
 
     filled: BoolProperty(options={"HIDDEN"})
@@ -90,6 +103,13 @@ def as_values(source: TraceSettings) -> dict[str, Any]:
     values = {name: getattr(source, name) for name in NAMES}
     # Blender keeps floats in 32 bits: 0.3 comes back as 0.30000001.
     return {n: float(f"{v:.6g}") if isinstance(v, float) else v for n, v in values.items()}
+
+
+def take_from_engine(settings: object, wanted: Settings, names: Iterable[str] = NAMES) -> None:
+    """Set properties to what a drawing was traced with."""
+    for name in names:
+        value = getattr(wanted, name)
+        setattr(settings, name, set(value) if isinstance(value, tuple) else value)
 
 
 def engine_settings(source: TraceSettings) -> Settings:

@@ -46,6 +46,11 @@ class INVOLUTE_PG_view(bpy.types.PropertyGroup):
         description="Show every stroke in a color of its own, with its ends marked",
         default=False,
     )
+    live: BoolProperty(
+        name="Live",
+        description="Trace again by itself when a setting changes",
+        default=False,
+    )
     certainty: FloatProperty(
         name="Certainty",
         description="Least probability of the routing in force",

@@ -158,6 +158,21 @@ def test_readme_tables_come_from_the_last_whole_run(tmp_path: Path) -> None:
     assert "graph 83 %" in made
 
 
+def test_the_fast_runtime_stands_beside_the_yardstick_and_the_default() -> None:
+    def timing(method: str, cpu: float, stages: dict[str, float]) -> speed.Timing:
+        return speed.Timing(method, "scan", 1024, cpu, cpu, 0.0, stages, 1.0, 1.0, 9)
+
+    timings = [
+        timing("involute", 2.0, {"scan": 0.5, "graph": 1.5}),
+        timing("skeleton + greedy", 0.1, {}),
+        timing("involute in ONNX Runtime", 1.0, {"scan": 0.5, "graph": 0.5}),
+    ]
+    row = speed.figures(timings)["scan, 1024 px"]
+    assert row["times skeleton + greedy"] == pytest.approx(20)
+    assert row["fast, times skeleton + greedy"] == pytest.approx(10)
+    assert row["share of graph"] == pytest.approx(0.75)  # of the default's time
+
+
 def test_faithful_lost_and_invented() -> None:
     ink = one_bit(CROSS, 3).astype(np.float32)
     page = np.where(ink > 0, 0, 255).astype(np.uint8)

@@ -273,3 +273,29 @@ def test_overlay_and_panels_are_there(bpy, part, traced):
     assert len(part("ui.overlay.overlay")._handles) == 2
     keys = list(part("ui.keymap").items(bpy.context.window_manager.keyconfigs.addon))
     assert len(keys) == 4
+
+
+def test_doubtful_keyframes_are_counted_and_found(bpy, part):
+    state, writing = part("operators.grease_pencil.state"), part("operators.grease_pencil.writing")
+    obj, pixel_map = make(bpy, part, grid(part, 3))
+    bpy.context.view_layer.objects.active = obj
+    for frame in (5, 9):
+        key = state.add(obj.data, grid(part, 3), pixel_map, f"frame {frame}")
+        writing.write(obj.data, frame, grid(part, 3), pixel_map, key)
+    found = state.doubtful_frames(obj.data)
+    assert list(found) == [1, 5, 9]
+    count = len(drawing_of(part, obj).doubtful)
+    assert set(found.values()) == {count}
+    traces = obj.data["involute"]["traces"]
+    for frame, doubts in ((1, 0), (5, 3), (9, 2)):
+        traces[str(state.keys_at(obj.data, frame)[0])]["doubtful"] = doubts
+    bpy.context.scene.frame_set(1)
+    seen = []
+    for _ in range(3):
+        assert bpy.ops.involute.doubtful_frame(direction="NEXT") == {"FINISHED"}
+        seen.append(bpy.context.scene.frame_current)
+    assert seen == [5, 9, 5]
+    traces[str(state.keys_at(obj.data, 9)[0])]["doubtful"] = 0
+    assert bpy.ops.involute.doubtful_frame(direction="PREVIOUS") == {"CANCELLED"}
+    bpy.ops.involute.accept(probability=0)  # what is decided is no doubt any more
+    assert state.doubtful_frames(obj.data)[5] == 0

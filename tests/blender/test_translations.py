@@ -1,4 +1,4 @@
-"""Every text that a user can see has a German one, and no German one is left over."""
+"""Every text that a user can see has one in each language, and none is left over."""
 
 from __future__ import annotations
 
@@ -11,16 +11,17 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 SOURCES = sorted([*ROOT.glob("ui/**/*.py"), *ROOT.glob("operators/**/*.py")])
-OUTSIDE = ("blend_file.py", "german.py")  # the command line speaks English; the table itself
+LANGUAGES = ("german", "french", "japanese")
+OUTSIDE = ("blend_file.py", "german.py", "french.py", "japanese.py")  # the command line; tables
 SAME = {"", "3", "4", "5+", "involute", "3D View", "Grease Pencil"}  # of these there is no German
 _BLENDERS = {"Name", "File Path", "Filepath used for importing the file"}  # it translates them
 _SEEN = {"name", "description", "text", "heading"}
 _TOLD = ("label", "message", "InvoluteError", "_color")
 
 
-@pytest.fixture
-def table(part) -> dict[str, str]:
-    return part("ui.language.german").TEXTS
+@pytest.fixture(params=LANGUAGES)
+def table(part, request) -> dict[str, str]:
+    return part(f"ui.language.{request.param}").TEXTS
 
 
 def trees() -> Iterator[ast.Module]:
@@ -73,7 +74,7 @@ def of_settings(settings) -> set[str]:
     return seen
 
 
-def test_everything_that_is_seen_has_a_german_text(part, table):
+def test_everything_that_is_seen_has_a_text(part, table):
     seen = {text for tree in trees() for text in seen_in(tree)} - SAME
     seen |= of_settings(part("engine.settings")) - {"Bézier"}
     assert len(seen) > 150
@@ -81,7 +82,7 @@ def test_everything_that_is_seen_has_a_german_text(part, table):
 
 
 def test_no_text_is_left_over(part, table):
-    """Every English text of the table stands in the code; the German one has the same places."""
+    """Every English text of the table stands in the code; the other one has the same places."""
     written = set()
     for tree in trees():
         written |= {text for text in seen_in(tree) if text}
@@ -92,10 +93,19 @@ def test_no_text_is_left_over(part, table):
         }
     written |= of_settings(part("engine.settings"))
     assert sorted(table.keys() - written) == []
-    for english, german in table.items():
-        assert sorted(re.findall("{.*?}", english)) == sorted(re.findall("{.*?}", german))
-        assert german.strip() == german != ""
-        assert english.endswith(".") == german.endswith(".")
+    for english, other in table.items():
+        assert sorted(re.findall("{.*?}", english)) == sorted(re.findall("{.*?}", other))
+        assert other.strip() == other != ""
+        assert english.endswith(".") == other.endswith((".", "。"))
+        assert english.count("\n") == other.count("\n")
+
+
+def test_all_languages_say_the_same(part):
+    """Under the codes that Blender has; one that it has not would never be seen."""
+    codes = part("ui.language.translations")._LANGUAGES
+    assert set(codes) == {"de_DE", "fr_FR", "ja_JP"}
+    for table in codes.values():
+        assert table.keys() == part("ui.language.german").TEXTS.keys()
 
 
 def test_classes_show_only_known_texts(bpy, part, table):

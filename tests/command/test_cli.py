@@ -205,8 +205,8 @@ def test_a_failing_writer_leaves_nothing(tmp_path, capsys):
         ["trace", "in.png", "-o", "out.svg", "--polarity", "blue"],
         ["trace", "in.png", "-o", "out.svg", "--jobs", "-2"],
         ["trace", "in.png", "-o", "out.svg", "--format", "json"],
-        ["trace", "in.png", "-o", "out.pdf"],
-        ["trace", "in.png", "-o", "out", "--format", "svg,pdf"],
+        ["trace", "in.png", "-o", "out.doc"],
+        ["trace", "in.png", "-o", "out", "--format", "svg,doc"],
         ["trace", "in.png", "in2.png", "-o", "out.svg"],
         ["trace", "in.png", "-o", "out.svg", "--align"],
         ["trace", "in.png", "-o", "out.svg", "--start", "5"],
@@ -319,3 +319,58 @@ def test_importing_the_command_line_is_light():
     )
     result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     assert result.stdout.strip() == "set()"
+
+
+# --- for other programs ----------------------------------------------------------------------
+
+
+def test_formats_for_other_programs_are_listed_and_written(tmp_path, capsys):
+    assert run("trace", "--help") == 0
+    told = " ".join(capsys.readouterr().out.split())
+    assert all(f"{kind.name}: {kind.about}" in told for kind in FORMATS)
+    source, out = page(tmp_path / "page.png"), tmp_path / "out"
+    chosen = ",".join(kind.name for kind in FORMATS)
+    assert trace(source, "-o", out, "--format", chosen) == 0
+    assert names(out) == sorted(f"page{kind.suffix}" for kind in FORMATS)
+    assert trace(source, "-o", out, "--format", chosen, "--resume", "--overwrite") == 0
+    assert trace(source, "-o", tmp_path / "lines.plot.svg") == 0
+    assert "mm" in (tmp_path / "lines.plot.svg").read_text()[:300]
+
+
+def test_an_image_named_like_a_format_does_not_become_one(tmp_path):
+    pages = [page(tmp_path / "page.png"), page(tmp_path / "page.plot.png", seed=3)]
+    out = tmp_path / "out"
+    assert trace(*pages, "-o", out, "--format", "svg,plot.svg") == 0
+    assert names(out) == [
+        "page.plot-png.plot.svg",
+        "page.plot-png.svg",
+        "page.plot.svg",
+        "page.svg",
+    ]
+    assert "data-stroke" in (out / "page.svg").read_text()
+
+
+def test_an_svg_of_another_program_is_cleaned_up(tmp_path):
+    other = tmp_path / "other.svg"
+    other.write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 99 99" stroke="red" stroke-width="3">'
+        '<path d="M9 50 h40"/><path d="M49 50 h40"/></svg>'
+    )
+    assert trace(other, "-o", tmp_path / "clean.json") == 0
+    (stroke,) = load(tmp_path / "clean.json").strokes
+    assert np.ptp(stroke.points[:, 0]) == pytest.approx(80, abs=1)
+    assert trace(other, "-o", other, "--overwrite") == 1  # what is read is never written
+
+
+@pytest.mark.parametrize("name", ["shot.pli", "shot.pdf", "shot.lottie.json"])
+def test_a_sequence_goes_into_one_file_for_other_programs(name, scans, tmp_path):
+    assert trace(scans, "-o", tmp_path / name, "--sequence") == 0
+    assert (tmp_path / name).stat().st_size > 500
+
+
+def test_a_format_without_its_library_is_told_before_anything_is_traced(
+    tmp_path, capsys, monkeypatch
+):
+    monkeypatch.setattr("involute.engine.formats.find_spec", lambda name: None)
+    assert trace(page(tmp_path / "page.png"), "-o", tmp_path / "page.dxf") == 2
+    assert "needs the library ezdxf" in capsys.readouterr().err

@@ -164,6 +164,28 @@ def test_odd_arguments_are_one_sentence(words, code, tmp_path, capsys):
     assert re.match(r"involute( trace)?: [A-Z].*\.$", said.rstrip())
 
 
+def test_a_link_round_to_its_own_folder_gives_each_picture_once(tmp_path):
+    scan = page(tmp_path / "in" / "a.png")
+    (scan.parent / "round").symlink_to(".")
+    (scan.parent / "held.png").symlink_to("a.png")  # a drawing that is held is one of its own
+    assert trace(f"{scan.parent}/**/*.png", "-o", tmp_path / "out") == 0
+    assert sorted(path.name for path in (tmp_path / "out").iterdir()) == ["a.svg", "held.svg"]
+
+
+@pytest.mark.skipif(not Path("/sys/kernel").is_dir(), reason="a folder where not even root may")
+def test_a_folder_that_may_not_be_made_is_said(tmp_path, capsys):
+    assert trace(page(tmp_path / "a.png"), "-o", "/sys/kernel/drawings") == 1
+    assert "you may not write there; choose another folder." in capsys.readouterr().err
+
+
+def test_a_file_in_the_way_of_a_folder_is_said(tmp_path, capsys):
+    scan, out = page(tmp_path / "a.png"), tmp_path / "out"
+    out.mkdir()
+    (out / ".involute").write_text("a file")
+    assert trace(scan, "-o", out, "--resume") == 1
+    assert "a file of that name is in the way; choose another name." in capsys.readouterr().err
+
+
 def test_what_is_no_file_is_never_replaced(tmp_path):
     scan, pipe = page(tmp_path / "a.png"), tmp_path / "pipe.svg"
     os.mkfifo(pipe)
@@ -319,3 +341,13 @@ def test_affinity_limits_the_cores():
         assert machine.cores() == 1
     finally:
         os.sched_setaffinity(0, allowed)
+
+
+def test_handlers_that_are_not_of_python_do_not_matter(monkeypatch, capsys):
+    """An installed Blender sets its own in C, and Python knows of them only that they are there."""
+    before = signal.getsignal(signal.SIGINT)
+    with monkeypatch.context() as patched:
+        patched.setattr(signal, "getsignal", lambda number: None)
+        assert cli.main(["--help"]) == 0
+    signal.signal(signal.SIGINT, before)
+    assert "trace images" in capsys.readouterr().out

@@ -320,3 +320,21 @@ def test_simplify_keeps_within_tolerance_and_what_it_must(seed: int, tolerance: 
     assert kept[[0, 70, 199]].all()
     line = shapely.LineString(points[kept])
     assert shapely.distance(shapely.points(points), line).max() <= tolerance + 1e-9
+
+
+@pytest.mark.parametrize("smoothing", [0.0, 0.5, 1.0])
+@pytest.mark.parametrize("curve", ["polyline", "bezier"])
+def test_a_line_that_comes_back_to_where_it_began_has_a_length(smoothing: float, curve) -> None:
+    """Out and back by half a pixel, between two vertices in one place."""
+    out = np.array([[30, 30], [29.5, 29.9], [30, 30]], np.float32)
+    line = np.array([[30, 30], [60, 40], [90, 30]], np.float32)
+    graph = PlanarGraph(
+        np.array([[30, 30], [30, 30], [90, 30]], np.float32),
+        np.concatenate([out, line]),
+        np.array([0, 3, 6], np.int32),
+        np.array([[0, 1], [1, 2]], np.int32),
+        widths=np.full(6, 2.0, np.float32),
+    )
+    page = Page.of(graph, Settings(smoothing=smoothing, curve=curve))
+    for stroke in build(page, walk(np.arange(4, dtype=np.int32))):
+        assert np.ptp(stroke.points, axis=0).max() > 0.1

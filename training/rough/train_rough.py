@@ -1,10 +1,10 @@
 """Learn how many pencil strokes become one line, for `engine/rough`.
 
 `python -m training run rough --data DIR --run RUN --pages 170` draws and traces pages
-(`rough_pages`; RUN/train and RUN/held_out, started again it goes on) and trains three small
+(`rough_pages`; RUN/train and RUN/held_out, started again it goes on) and trains four small
 networks, one on what the other leaves: which strokes mean one line (on any page, and on rough
-ones), which redrawn lines are meant, and which go on in which. It writes engine/weights/rough.npz; the held-out pages choose when to
-stop. The figures go to RUN/log.json.
+ones), which redrawn lines are meant, and which go on in which. It writes engine/weights/rough.npz;
+the held-out pages choose when to stop. The figures go to RUN/log.json.
 """
 
 from __future__ import annotations

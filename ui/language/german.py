@@ -683,4 +683,70 @@ TEXTS = {
         "erledigt: Ziffer oder Klick entscheidet, Enter nimmt an, S entscheidet alle gleichen, "
         "Leertaste überspringt, Rücktaste geht zurück, Esc beendet"
     ),
+    # again, and into what is there
+    "Active Layer": "Aktive Ebene",
+    "As Found": "Wie gefunden",
+    "As by Hand": "Wie von Hand",
+    "As the lines were found on the page": "Wie die Linien auf dem Blatt gefunden wurden",
+    "Do nothing if the drawing has these settings already": (
+        "Nichts tun, wenn die Zeichnung diese Einstellungen schon hat"
+    ),
+    "In which order and direction the strokes are drawn": (
+        "In welcher Reihenfolge und Richtung die Striche gezeichnet werden"
+    ),
+    "Live": "Sofort",
+    "Long outlines first, from left to right and top to bottom, one neighborhood after the other; "
+    "for the Build modifier": (
+        "Lange Umrisse zuerst, von links nach rechts und von oben nach unten, eine Umgebung nach "
+        "der anderen; für den Modifikator „Aufbau“"
+    ),
+    "Nobody noted which picture this was; trace it as a new object.": (
+        "Welches Bild das war, ist nicht vermerkt; ziehe es als neues Objekt nach."
+    ),
+    "Show the settings in the sidebar that this drawing was traced with": (
+        "In der Seitenleiste die Einstellungen zeigen, mit denen diese Zeichnung nachgezogen wurde"
+    ),
+    "Stroke Order": "Strichfolge",
+    "The Grease Pencil object has no layer; add one to trace into.": (
+        "Das Grease-Pencil-Objekt hat keine Ebene; füge eine hinzu, in die nachgezogen wird."
+    ),
+    "The active layer of the active Grease Pencil object, with its active material; what is there "
+    "stays": (
+        "Die aktive Ebene des aktiven Grease-Pencil-Objekts, mit dem aktiven Material; was dort "
+        "ist, bleibt"
+    ),
+    "The drawing was deleted meanwhile.": "Die Zeichnung wurde inzwischen gelöscht.",
+    "There is no file {path}; put it back, or trace the picture as a new object.": (
+        "Es gibt keine Datei {path}; lege sie zurück, oder ziehe das Bild als neues Objekt nach."
+    ),
+    "The layer {name!r} is locked; unlock it to trace into it.": (
+        "Die Ebene {name!r} ist gesperrt; entsperre sie, um in sie nachzuziehen."
+    ),
+    "The layer {name!r} is locked; unlock it to trace again.": (
+        "Die Ebene {name!r} ist gesperrt; entsperre sie, um noch einmal nachzuziehen."
+    ),
+    "Trace Again": "Noch einmal nachziehen",
+    "Trace again by itself when a setting changes": (
+        "Von selbst noch einmal nachziehen, wenn sich eine Einstellung ändert"
+    ),
+    "Trace the picture of this drawing again with other settings; decisions and changes stay": (
+        "Das Bild dieser Zeichnung mit anderen Einstellungen noch einmal nachziehen; "
+        "Entscheidungen und Änderungen bleiben"
+    ),
+    "Use Its Settings": "Ihre Einstellungen verwenden",
+    "{count} decisions have no place any more": "{count} Entscheidungen haben keinen Platz mehr",
+    "{count} that you changed stay": "{count} von dir geänderte bleiben",
+    "Go to the next or previous keyframe that has doubtful junctions": (
+        "Zum nächsten oder vorherigen Keyframe mit zweifelhaften Kreuzungen gehen"
+    ),
+    "Next or Previous Doubtful Keyframe": "Nächster oder vorheriger zweifelhafter Keyframe",
+    "Which way along the timeline": "In welche Richtung auf der Zeitleiste",
+    "The next doubtful keyframe": "Der nächste zweifelhafte Keyframe",
+    "The doubtful keyframe before": "Der zweifelhafte Keyframe davor",
+    "{doubts} doubts on {some} of {all} keyframes": (
+        "{doubts} Zweifel auf {some} von {all} Keyframes"
+    ),
+    "No other keyframe has doubtful junctions.": (
+        "Kein anderer Keyframe hat zweifelhafte Kreuzungen."
+    ),
 }

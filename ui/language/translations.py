@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import bpy
 
+from .french import TEXTS as FRENCH
 from .german import TEXTS as GERMAN
+from .japanese import TEXTS as JAPANESE
 
-_LANGUAGES = {"de_DE": GERMAN}
+_LANGUAGES = {"de_DE": GERMAN, "fr_FR": FRENCH, "ja_JP": JAPANESE}
 _CONTEXTS = (
     bpy.app.translations.contexts.default,
     bpy.app.translations.contexts.operator_default,  # names and buttons of operators

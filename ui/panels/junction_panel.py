@@ -6,9 +6,11 @@ import bpy
 import numpy as np
 
 from ...engine import InvoluteError
+from ...operators.grease_pencil import state
 from ...operators.junctions.accept import INVOLUTE_OT_accept
 from ...operators.junctions.ask_again import INVOLUTE_OT_ask_again
 from ...operators.junctions.choose import INVOLUTE_OT_choose
+from ...operators.junctions.doubtful_frame import INVOLUTE_OT_doubtful_frame
 from ...operators.junctions.go_to_junction import (
     INVOLUTE_OT_go_to_junction,
     INVOLUTE_OT_step_junction,
@@ -72,6 +74,7 @@ class INVOLUTE_PT_junctions(_Sidebar, bpy.types.Panel):
         button = row.operator(INVOLUTE_OT_accept.bl_idname, text=said, translate=False)
         button.probability = certainty
         column.operator(INVOLUTE_OT_ask_again.bl_idname, icon="FILE_REFRESH")
+        _frames(self.layout, shown)
         if shown.has_corners:
             self.layout.prop(shown.object, "involute_pen_lifts", slider=True)
 
@@ -108,6 +111,25 @@ def _filters(layout: bpy.types.UILayout, shown: Shown) -> None:
     row.prop(view, "doubtful_only", toggle=True)
     row.prop(view, "unlocked_only", toggle=True)
     row.prop(view, "degree", text="")
+
+
+def _frames(layout: bpy.types.UILayout, shown: Shown) -> None:
+    """For sequences: which keyframes are doubtful."""
+    frames = state.doubtful_frames(shown.object.data)
+    if len(frames) < 2:
+        return
+    doubtful = {frame: count for frame, count in frames.items() if count}
+    row = layout.row(align=True)
+    step = INVOLUTE_OT_doubtful_frame.bl_idname
+    row.operator(step, text="", icon="PREV_KEYFRAME").direction = "PREVIOUS"
+    said = label(
+        "{doubts} doubts on {some} of {all} keyframes",
+        doubts=sum(doubtful.values()),
+        some=len(doubtful),
+        all=len(frames),
+    )
+    row.label(text=said, translate=False)
+    row.operator(step, text="", icon="NEXT_KEYFRAME").direction = "NEXT"
 
 
 def _list(layout: bpy.types.UILayout, shown: Shown, listed: np.ndarray) -> None:

@@ -19,6 +19,10 @@ from ...operators.tracing.import_scan import INVOLUTE_OT_import_scan
 from ...operators.tracing.scan_behind import scan_of
 from ...operators.tracing.settings_layout import draw_placing, draw_settings
 from ...operators.tracing.trace import INVOLUTE_OT_trace, is_image_empty
+from ...operators.tracing.trace_again import (
+    INVOLUTE_OT_take_settings,
+    INVOLUTE_OT_trace_again,
+)
 from ...operators.tracing.trace_settings import as_values, scene_settings
 from ...operators.tracing.use_defaults import INVOLUTE_OT_use_defaults
 from ...operators.view.view_state import Shown, shown_in
@@ -131,6 +135,10 @@ class INVOLUTE_PT_summary(bpy.types.Panel):
         )
         for text in (drawn, found):
             column.label(text=text, translate=False)
+        row = self.layout.row(align=True)
+        row.operator(INVOLUTE_OT_trace_again.bl_idname, icon="FILE_REFRESH")
+        row.operator(INVOLUTE_OT_take_settings.bl_idname, text="", icon="EYEDROPPER")
+        row.prop(shown.view, "live", text="", icon="PLAY")
         scan = scan_of(shown.object)
         if scan is not None:
             row = self.layout.row(align=True)

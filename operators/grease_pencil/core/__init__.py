@@ -6,6 +6,7 @@ stroke_arrays   strokes and their attributes as arrays
 stretches       what stays whole of strokes when junctions are rerouted
 pieces          cutting and joining strokes, with all attributes of their points
 crossed         where a swipe crosses strokes, and cutting there
+hand_edits      what the artist did to strokes, when the page is traced again
 regraphed       strokes of before a cut or a join, on the graph of after it
 splice          `plan`: from one routing to another, as edits of cels
 """

@@ -70,6 +70,19 @@ def plan(
     return edits
 
 
+def untouched_strokes(
+    drawing: Drawing, cels: Sequence[Curves], key: int, pixel_map: PixelMap
+) -> set[int]:
+    """The numbers of the strokes that are still just as the engine made them.
+
+    Args:
+        cels, key: as for `plan`.
+    """
+    splicer = _Splicer(drawing, drawing, cels, key, pixel_map)
+    splicer.pieces = splicer.find(range(len(drawing.strokes)), strict=False)
+    return {k for k in range(len(drawing.strokes)) if splicer.is_untouched(k)}
+
+
 class _Splicer:
     def __init__(
         self, old: Drawing, new: Drawing, cels: Sequence[Curves], key: int, pixel_map: PixelMap
@@ -78,8 +91,8 @@ class _Splicer:
         self.key, self.pixel_map = key, pixel_map
         self.changed = changed_halves(old, new)
         affected = strokes_through(old, self.changed)
-        self.pieces = self._find(affected)
-        self.untouched = {index for index in affected if self._is_untouched(index)}
+        self.pieces = self.find(affected)
+        self.untouched = {index for index in affected if self.is_untouched(index)}
         # Every stretch by the half-branch that it begins with, walked either way.
         self.stretches: dict[int, Source] = {}
         for index in affected:
@@ -109,8 +122,12 @@ class _Splicer:
 
     # --- what is there ---
 
-    def _find(self, affected: Sequence[int]) -> dict[int, list[Piece]]:
-        """The Grease Pencil strokes that each traced stroke has become, in order along it."""
+    def find(self, affected: Sequence[int], *, strict: bool = True) -> dict[int, list[Piece]]:
+        """The Grease Pencil strokes that each traced stroke has become, in order along it.
+
+        Args:
+            strict: raise where the points of one can't be told; else it counts as gone.
+        """
         owner = {int(h) >> 1: i for i in affected for h in self.old.strokes[i].branches}
         found: dict[int, list[Piece]] = {index: [] for index in affected}
         for number, cel in enumerate(self.cels):
@@ -121,13 +138,15 @@ class _Splicer:
                 stroke = self.old.strokes[index]
                 piece = piece_of(cel, number, curve, whole_length(stroke))
                 if piece is None:
-                    raise InvoluteError(_UNTELLABLE)
+                    if strict:
+                        raise InvoluteError(_UNTELLABLE)
+                    continue
                 # A copy that the artist made lies over the original: it is nobody's piece.
                 if not any(_overlap(piece, other) for other in found[index]):
                     found[index].append(piece)
         return {i: sorted(pieces, key=lambda p: p.along[0]) for i, pieces in found.items()}
 
-    def _is_untouched(self, index: int) -> bool:
+    def is_untouched(self, index: int) -> bool:
         """Is the stroke still just as the engine made it?"""
         stroke, pieces = self.old.strokes[index], self.pieces[index]
         if len(pieces) != 1 or len(pieces[0]) != len(stroke.points):
