@@ -119,8 +119,8 @@ def read(text: str, name: str = "The file") -> Drawing:
 
 def _foreign(name: str, why: str) -> InvoluteError:
     return InvoluteError(
-        f"{name} isn't an SVG that Involute wrote ({why}); open its .json or trace the picture "
-        "again."
+        f"{name} isn't an SVG that Involute wrote ({why}); open its .json, or trace it, which "
+        "joins the lines of any SVG anew."
     )
 
 

@@ -13,6 +13,15 @@ from .picture import unit
 
 _FINEST = 1.5  # px; a finer pen than this beside a broad one is as likely grain
 _WINDOW, _WINDOWS = 512, 16  # px and number of the places where the pen is measured
+_FEW = 4  # of these places, where it is seen whether the ink lies in lines
+_PLENTY = 4e6  # px of a page that is looked at whole
+_DARK = 0.3  # ink
+# On 60 held-out pages of all media the ink of lines is 0.68 to 0.97 coherent; that of grain, and of
+# dense charcoal, 0.22 to 0.67. In smaller pictures broad pencil has 0.62 to 0.85, widths whose
+# middle half is within 1.5, and ink on 0.77 and more of them; dense drawings have 1.6 to 5.
+_LINES, _CLOSED, _ALIKE, _FULL = 0.7, 0.62, 1.5, 0.75
+_BROADER = 1.5  # pens, that broad lines are at least wide
+_SMALLEST = 60  # px of a picture in which lines can still be told
 
 
 def measure_pen(ink: Array) -> float:
@@ -23,9 +32,58 @@ def measure_pen(ink: Array) -> float:
 def measured_pen(gray: Array, ink: Array | None) -> float:
     """The pen where the page has most ink; `ink` is the flattened page when it is small enough."""
     if ink is not None:
-        return _typical([_line_widths(ink[window]) for window in _inkiest_windows(-ink)])
-    windows = _inkiest_windows(gray)
-    return _typical([_line_widths(flatten_paper(unit(gray[window]))) for window in windows])
+        parts = [ink[window] for window in _inkiest_windows(-ink)]
+    else:
+        parts = [flatten_paper(unit(gray[window])) for window in _inkiest_windows(gray)]
+    pen = _typical([_line_widths(part) for part in parts])
+    if pen and _in_lines(parts[:_FEW], pen) < _LINES:
+        shrink = 1.0 if ink is not None else max(1.0, (gray.size / _PLENTY) ** 0.5)
+        page = ink if ink is not None else flatten_paper(unit(_reduced(gray, shrink)))
+        return max(pen, shrink * _beyond_grain(page, pen / shrink))
+    return pen
+
+
+def _in_lines(parts: list[Array], pen: float) -> float:
+    """How far the edges of the ink run in one direction within a few pen widths: 1 for lines, 0.3
+    for grain (the coherence of the structure tensor, weighted by its trace)."""
+    along = every = 0.0
+    for ink in parts:
+        soft = cv2.GaussianBlur(ink, (0, 0), max(0.5, pen / 5))
+        dx, dy = (cv2.Sobel(soft, cv2.CV_32F, *axis, scale=1 / 8) for axis in ((1, 0), (0, 1)))
+        xx, yy, xy = (cv2.GaussianBlur(p, (0, 0), 1.5 * pen) for p in (dx * dx, dy * dy, dx * dy))
+        dark = ink > _DARK
+        along += float(np.sqrt((xx - yy) ** 2 + 4 * xy**2)[dark].sum())
+        every += float((xx + yy)[dark].sum())
+    return along / max(every, 1e-9)
+
+
+def _beyond_grain(ink: Array, pen: float) -> float:
+    """The width of broad lines of which `pen` is but the grain, px; 0 when there are none.
+
+    Looked for in ever smaller pictures, in which grain closes: there the page is of lines, all
+    about equally wide, and solid.
+    """
+    shrink = max(2.0, pen / 2)
+    while min(ink.shape) / shrink > _SMALLEST:
+        small = _reduced(ink, shrink)
+        lit = small[small > _DARK]
+        if not lit.size:
+            break
+        # Grain, averaged, is grey: full ink again.
+        small = np.clip(small / max(float(np.quantile(lit, 0.7)), _DARK), 0, 1)
+        widths = _line_widths(small)
+        broad = shrink * _typical([widths])
+        if broad > _BROADER * pen and _in_lines([small], broad / shrink) > _CLOSED:
+            low, high = np.quantile(widths, (0.25, 0.75))
+            dark = cv2.resize(small, ink.shape[::-1], interpolation=cv2.INTER_NEAREST) > 0.5
+            if high < _ALIKE * low and (ink[dark] > _DARK).mean() > _FULL:
+                return broad
+        shrink *= 1.6
+    return 0.0
+
+
+def _reduced(picture: Array, shrink: float) -> Array:
+    return cv2.resize(picture, None, fx=1 / shrink, fy=1 / shrink, interpolation=cv2.INTER_AREA)
 
 
 def _typical(widths: list[Array]) -> float:

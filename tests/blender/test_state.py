@@ -6,6 +6,7 @@ Whatever happens, strokes stay; what no longer fits becomes one sentence.
 from __future__ import annotations
 
 import contextlib
+import secrets
 import zlib
 
 import numpy as np
@@ -48,6 +49,8 @@ def put(entry, name, value):
         del entry[name]
     entry[name] = value
 
+
+DAMAGED = 80  # states in a run
 
 # --- damage --------------------------------------------------------------------------------------
 
@@ -121,6 +124,59 @@ def test_damaged_state_is_one_sentence(bpy, part, traced, forget, damage):
     assert bpy.types.INVOLUTE_PT_summary.poll(bpy.context)
     for (points, _), (old, _) in zip(strokes_in(part, obj, pixel_map), before, strict=True):
         np.testing.assert_array_equal(points, old)
+
+
+def test_state_that_is_damaged_anyhow_loses_no_stroke(bpy, part, traced, forget):
+    """Bytes and numbers of what is kept, changed at random: in words, or as if nothing were."""
+    seed = secrets.randbits(32)
+    print(f"seed {seed}")
+    random = np.random.default_rng(seed)
+    obj, pixel_map = traced
+    kept = {name: as_plain(value) for name, value in entry_of(obj).items() if name != "earlier"}
+    before = strokes_in(part, obj, pixel_map)
+    view_state = part("operators.view.view_state")
+    for count in range(DAMAGED):
+        name = sorted(kept)[int(random.integers(len(kept)))]
+        put(entry_of(obj), name, spoilt(kept[name], random))
+        forget()
+        try:
+            if bpy.types.INVOLUTE_PT_junctions.poll(bpy.context):
+                view_state.shown_in(bpy.context)
+            list(view_state.traced_in(bpy.context))
+            bpy.ops.involute.reroute.poll()
+            bpy.types.INVOLUTE_PT_summary.poll(bpy.context)
+        except Exception as error:
+            raise AssertionError(f"seed {seed}, {count}: {name}") from error
+        put(entry_of(obj), name, kept[name])
+    forget()
+    assert bpy.ops.involute.reroute.poll()
+    for (points, _), (old, _) in zip(strokes_in(part, obj, pixel_map), before, strict=True):
+        np.testing.assert_array_equal(points, old)
+
+
+def as_plain(value):
+    """A property as it can be written again."""
+    return (
+        value.to_dict()
+        if hasattr(value, "to_dict")
+        else (value.to_list() if hasattr(value, "to_list") else value)
+    )
+
+
+def spoilt(value, random):
+    """A value of a property with something wrong in it."""
+    if isinstance(value, bytes) and random.random() < 0.9:
+        found = bytearray(value)
+        at = int(random.integers(len(found)))
+        if random.random() < 0.3:
+            return bytes(found[:at])
+        found[at : at + 3] = random.bytes(3)
+        return bytes(found)
+    if isinstance(value, list) and value and random.random() < 0.8:
+        found = list(value)
+        found[int(random.integers(len(found)))] = float(random.choice([np.nan, np.inf, 0.0, 1e30]))
+        return found
+    return [b"\1", 7, -1, 2.5, "text", "", [1, 2], {"a": 1}][int(random.integers(8))]
 
 
 @pytest.mark.parametrize(

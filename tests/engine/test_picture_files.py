@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import secrets
 import struct
 import zlib
 from contextlib import suppress
@@ -276,6 +277,54 @@ def test_files_that_lie_are_refused_at_once(data, tmp_path):
     assert page_count(path) >= 1
     with pytest.raises(InvoluteError, match="damaged"):
         read_image(path)
+
+
+MUTATIONS = 300  # pictures in a run
+
+
+def test_damaged_pictures_are_read_or_refused(tmp_path):
+    """Whatever is wrong with a file; what was found so stands above, in FILES and what lies."""
+    seed = secrets.randbits(32)
+    print(f"seed {seed}")
+    random = np.random.default_rng(seed)
+    names = list(FILES)
+    for count in range(MUTATIONS):
+        name = names[int(random.integers(len(names)))]
+        path = tmp_path / name
+        path.write_bytes(damaged(FILES[name][0], random))
+        try:
+            assert page_count(path) >= 1
+            picture = read_image(path)
+        except InvoluteError as error:
+            said = str(error)
+            assert name in said, f"seed {seed}, {count}"
+            assert "\n" not in said, f"seed {seed}, {count}"
+        except Exception as error:
+            raise AssertionError(f"seed {seed}, {count}: {name}") from error
+        else:
+            assert picture.ndim in (2, 3), f"seed {seed}, {count}"
+            assert max(picture.shape[:2]) <= 20_000, f"seed {seed}, {count}"
+
+
+def damaged(data: bytes, random: np.random.Generator) -> bytes:
+    """A file with something wrong in it, mostly in its head, where sizes and places stand."""
+    found = bytearray(data)
+    for _ in range(int(random.integers(1, 4))):
+        length = max(1, len(found))
+        at = int(random.integers(min(length, 400) if random.random() < 0.7 else length))
+        size = int(random.integers(1, 9))
+        how = int(random.integers(5))
+        if how == 0:
+            found[at : at + size] = random.bytes(size)
+        elif how == 1:
+            found[at : at + size] = random.choice([b"\0", b"\xff", b"\x7f", b"\x80"]) * size
+        elif how == 2:
+            del found[at : at + int(random.integers(1, 60))]
+        elif how == 3:
+            found[at:at] = found[at : at + int(random.integers(1, 60))]
+        else:
+            del found[at:]
+    return bytes(found)
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no pipes with names here")

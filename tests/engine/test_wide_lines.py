@@ -78,3 +78,23 @@ def test_two_pens_are_told_apart_and_a_swelling_brush_is_one():
     brush = np.linspace(2, 14, 400)
     assert len(finer_pen(brush)) == 400
     assert len(finer_pen(fine)) == 300
+
+
+@pytest.mark.parametrize("broad", [26, 38])
+def test_the_pen_of_coarse_pencil_is_its_line_and_not_its_grain(broad):
+    line = np.zeros((760, 900), np.uint8)
+    for ends in ([(80, 80), (800, 160)], [(90, 300), (820, 250)], [(80, 400), (600, 680)]):
+        cv2.line(line, *ends, 255, broad, cv2.LINE_AA)
+    cv2.circle(line, (730, 560), 110, 255, broad, cv2.LINE_AA)
+    noise = cv2.GaussianBlur(np.random.default_rng(2).normal(0, 1, line.shape), (0, 0), 3)
+    ink = line / 255 * np.clip(0.55 + 0.35 * noise / noise.std(), 0.05, 1)
+    scan = read_scan((1 - 0.9 * ink).astype(np.float32), Settings())
+    assert scan.pen_width * scan.scale == pytest.approx(broad, rel=0.25)
+
+
+def test_the_pen_of_hatching_is_that_of_its_lines():
+    page = np.full((700, 700), 255, np.uint8)
+    for x in range(-600, 700, 14):
+        cv2.line(page, (x, 50), (x + 600, 650), 0, 2, cv2.LINE_AA)
+        cv2.line(page, (x + 600, 50), (x, 650), 0, 2, cv2.LINE_AA)
+    assert 2 < read_scan(page, Settings()).pen_width < 4
