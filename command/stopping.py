@@ -65,4 +65,5 @@ def by_signals() -> Iterator[None]:
     finally:
         _told.clear()
         for number, handler in before.items():
-            signal.signal(number, handler)
+            # None: it was not set by Python, as Blender's own; that can't be put back.
+            signal.signal(number, signal.SIG_DFL if handler is None else handler)

@@ -23,3 +23,13 @@ def depth(dark: Array) -> Array:
     np.square(distance, out=distance)
     np.rint(distance, out=distance)
     return np.sqrt(distance, out=distance)
+
+
+def may_be_deeper(dark: Array, radius: float) -> bool:
+    """Whether `depth` may be above a radius (px) anywhere; False is certain, and found quickly.
+
+    A disc of that radius holds a square, and whether one of these fits is asked by an erosion.
+    """
+    half = int(radius / 2**0.5)
+    square = np.ones((2 * half + 1, 2 * half + 1), np.uint8)
+    return bool(cv2.erode((dark > 0).view(np.uint8), square).any())

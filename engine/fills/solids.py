@@ -64,6 +64,8 @@ def _areas(dark: Array, wide: float, widest: float, stroke: float) -> Array:
     An area is what discs of radius `wide` can paint within the dark, around a place where even one
     of radius `widest` fits; but a long even line stays a line up to a width of `stroke`.
     """
+    if not distance.may_be_deeper(dark, widest):
+        return np.zeros_like(dark)
     depth = distance.depth(dark)
     seed = depth > widest
     if not seed.any():

@@ -17,6 +17,7 @@ from .flatten import outline, widths_along
 
 _FLAT = 0.05  # px; an arc of the outline strays no farther from the true one: not to be seen
 _STEP = (0.1, 0.6)  # radians from point to point of an arc, at least and at most
+_FOLD = 1.2  # radians; in sharper bends the sides would meet where the pen has another width
 _NEAR = 1e-3  # px; points closer than this are one: the resolution of the files
 
 
@@ -88,12 +89,12 @@ def _ring(center: Array, radius: Array, start: Array, turn: Array, room: Array) 
         start: (J,) angle at which the ring comes to each; turn: (J,) by how much it turns there.
             Below zero = the outer side of the bend, as the ring runs with the ink at its right.
         room: (J,) length of the shorter segment at each; a bend on the inner side with less room
-            than the pen needs is passed through its centre.
+            than twice what the pen needs is passed through its centre.
     """
     step = np.clip(2 * np.arccos(np.clip(1 - _FLAT / np.maximum(radius, _FLAT), 0, 1)), *_STEP)
     sharp, inner = np.abs(turn) > step, turn > 0
     inset = np.where(inner, np.tan(np.minimum(np.abs(turn), 3.0) / 2), 0)
-    tight = sharp & inner & (radius * inset > room)
+    tight = sharp & inner & ((radius * inset > room / 2) | (turn > _FOLD))
     arc = sharp & (~inner | ~np.isfinite(room))
     count = np.where(arc, np.ceil(np.abs(turn) / step).astype(np.int64) + 1, 1)
     count[tight] = 3

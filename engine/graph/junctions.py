@@ -126,7 +126,7 @@ def _meetings(curves: Array, cluster: Array, is_stem: Array) -> Array:
     A time runs from 0 at the curve's first sample to SAMPLES - 1 at its last.
     """
     pairs = pairs_within(cluster)
-    pairs = pairs[~is_stem[pairs].all(1)]
+    pairs = _close_by(curves, pairs[~is_stem[pairs].all(1)])
     found = [np.zeros((0, 5))]
     for some in np.array_split(pairs, len(pairs) // 512 + 1):
         if len(some):
@@ -152,6 +152,14 @@ def _meetings(curves: Array, cluster: Array, is_stem: Array) -> Array:
     order = np.lexsort((crossings[:, 3], missed, second))
     first = np.diff(second[order], prepend=-1) != 0
     return crossings[order[first | ~is_stem[second[order]]]]
+
+
+def _close_by(curves: Array, pairs: Array) -> Array:
+    """The pairs of curves that may meet, by the boxes around them: few, however large a cluster."""
+    reach = max(LIMITS.junction_stray, LIMITS.junction_touch)
+    low, high = curves.min(1) - reach / 2, curves.max(1) + reach / 2
+    a, b = pairs.T
+    return pairs[((low[a] <= high[b]) & (low[b] <= high[a])).all(1)]
 
 
 def _crossings(curves: Array, pairs: Array) -> Array:

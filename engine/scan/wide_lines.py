@@ -12,7 +12,7 @@ from functools import cached_property
 import cv2
 import numpy as np
 
-from ..arrays.distance import depth
+from ..arrays.distance import depth, may_be_deeper
 from ..settings import Settings
 from ..values import Array, Scan
 
@@ -68,7 +68,10 @@ def find_wide_lines(scan: Scan, settings: Settings) -> WideLines:
         scan.ink, None, fx=1 / _REDUCED, fy=1 / _REDUCED, interpolation=cv2.INTER_AREA
     )
     dark = (cv2.GaussianBlur(small, (0, 0), 1.0) > _DARK).astype(np.uint8)
-    deep = depth(_without_holes(dark, (wide / _REDUCED / 2) ** 2))
+    dark = _without_holes(dark, (wide / _REDUCED / 2) ** 2)
+    if not may_be_deeper(dark, wide / _REDUCED / 2):
+        return none
+    deep = depth(dark)
     core = deep > wide / _REDUCED / 2
     if not core.any():
         return none

@@ -341,3 +341,13 @@ def test_affinity_limits_the_cores():
         assert machine.cores() == 1
     finally:
         os.sched_setaffinity(0, allowed)
+
+
+def test_handlers_that_are_not_of_python_do_not_matter(monkeypatch, capsys):
+    """An installed Blender sets its own in C, and Python knows of them only that they are there."""
+    before = signal.getsignal(signal.SIGINT)
+    with monkeypatch.context() as patched:
+        patched.setattr(signal, "getsignal", lambda number: None)
+        assert cli.main(["--help"]) == 0
+    signal.signal(signal.SIGINT, before)
+    assert "trace images" in capsys.readouterr().out

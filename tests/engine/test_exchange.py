@@ -187,6 +187,7 @@ def test_outlines_are_read_back_as_strokes(tmp_path):
 
 @settings(max_examples=60, deadline=None)
 @example(points=[(0, 0), (0, 0)], widths=[1.0, 2.0], closed=False)
+@example(points=[(4, 6), (0, 0), (0, 7)], widths=[1.0, 4.0, 1.0], closed=False)
 @given(
     points=st.lists(st.tuples(*[st.integers(0, 100)] * 2), min_size=1, max_size=8, unique=True),
     widths=st.lists(st.floats(0.5, 12), min_size=8, max_size=8),
