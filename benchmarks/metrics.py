@@ -244,11 +244,20 @@ def read_svg(path: str | PathLike[str]) -> list[Array]:
     return scaled([line - (left, top) for line in strokes], (width, height))
 
 
+_FARTHEST = 100.0 * LONG_SIDE  # px; beyond it no line of a page lies
+
+
 def scaled(polylines: Iterable[Array], size: tuple[float, float]) -> list[Array]:
     """Polylines of a page of (width, height) px at a long side of 1024 px, without repeated or
-    infinite points; what is shorter than two points is left out."""
-    lines = (np.asarray(line, float).reshape(-1, 2) for line in polylines)
-    lines = (line[np.isfinite(line).all(1)] * (LONG_SIDE / max(size)) for line in lines)
+    infinite points; what is shorter than two points is left out.
+
+    Raises:
+        ValueError: a point lies so far off the page that its line can't be measured.
+    """
+    arrays = (np.asarray(line, float).reshape(-1, 2) for line in polylines)
+    lines = [line[np.isfinite(line).all(1)] * (LONG_SIDE / max(size)) for line in arrays]
+    if any((np.abs(line) > _FARTHEST).any() for line in lines):
+        raise ValueError("A line runs far off the page.")
     cleaned = (
         line[np.concatenate([[True], np.abs(np.diff(line, axis=0)).sum(1) > 1e-9])]
         for line in lines

@@ -23,7 +23,7 @@ from .routing.lifting import goes_on
 from .routing.ways import Ways
 from .settings import Settings
 from .strokes import Page, build, walk
-from .values import Array, Junction, Pair, PlanarGraph, Routing, Scan, Stroke
+from .values import Array, Junction, Pair, Pencil, PlanarGraph, Routing, Scan, Stroke
 
 Fill = tuple[Array, ...]
 
@@ -51,6 +51,7 @@ class Drawing:
     fidelity: how faithful it was to the ink when it was traced; None when nobody looked.
     notes: what was left out of it on purpose, a sentence each.
     warnings: what is wrong with it, each with what to do about it.
+    pencil: the strokes of a rough drawing, of which the lines were made; None for a clean one.
     edits: what was cut and joined since it was traced or read; None = nothing. Not kept in files,
         whose graph has it.
     dpi: pixels of the input per inch of paper, as its file says; None = it does not say.
@@ -71,6 +72,7 @@ class Drawing:
     fidelity: Fidelity | None = None
     notes: tuple[str, ...] = ()
     warnings: tuple[str, ...] = ()
+    pencil: Pencil | None = None
     edits: Edits | None = field(default=None, repr=False)
     dpi: float | None = None
     page: Page | None = field(default=None, repr=False)
@@ -115,8 +117,46 @@ class Drawing:
 
     def compared_with(self, scan: Scan) -> Drawing:
         """The same drawing, checked against the ink of the page that it was traced from."""
-        found = fidelity(self.strokes, self.fills, scan.ink, self.scale, self.settings.width_scale)
+        drawn = self.pencil.strokes if self.pencil else self.strokes
+        found = fidelity(drawn, self.fills, scan.ink, self.scale, self.settings.width_scale)
         return replace(self, fidelity=found, warnings=warnings(found, scan.light))
+
+    def cleaned_from(self, drawn: Drawing, said: Array) -> Drawing:
+        """The same drawing, with the rough one that it was made of behind it.
+
+        Args:
+            said: (K, 2) int32, strokes of the rough drawing and branches of this one's graph.
+        """
+        count, lines = len(drawn.strokes), len(self.strokes)
+        note = f"Taken for a rough drawing: its {count} pencil strokes say {lines} lines."
+        none = np.zeros(0, np.int32)
+        pencil = Pencil(tuple(replace(s, branches=none) for s in drawn.strokes), said)
+        return replace(self, pencil=pencil, notes=(*self.notes, note))
+
+    def pencil_of(self, stroke: int) -> tuple[int, ...]:
+        """The numbers of the pencil strokes that say a stroke, ascending; none for a clean drawing.
+
+        Raises:
+            InvoluteError: there is no such stroke.
+        """
+        branches = self._stroke(stroke).branches >> 1
+        if self.pencil is None:
+            return ()
+        drawn, line = self.pencil.said.T
+        return tuple(np.unique(drawn[np.isin(line, branches)]).tolist())
+
+    @property
+    def line_of_pencil(self) -> Array:
+        """(P,) int32: for each pencil stroke the first half-branch, counted from 1, of the line
+        that it says; of several the first one; 0 = of none."""
+        assert self.pencil is not None, "a clean drawing has no pencil strokes"
+        first = np.zeros(self.graph.branch_count, np.int32)
+        for stroke in self.strokes:
+            first[stroke.branches >> 1] = stroke.branches[0] + 1
+        line = np.zeros(len(self.pencil.strokes), np.int32)
+        drawn, branch = self.pencil.said[::-1].T
+        line[drawn] = first[branch]
+        return line
 
     @cached_property
     def junctions(self) -> tuple[Junction, ...]:
@@ -350,7 +390,8 @@ class Drawing:
 
     def ask_again(self) -> Drawing:
         """Route the junctions and corners that are not locked anew, given those that are."""
-        routing = route(_scaled(self.graph, 1 / self.scale), self.settings, self._decided)
+        graph = _scaled(self.graph, 1 / self.scale)
+        routing = route(graph, self.settings, self._decided, rough=self.pencil is not None)
         return replace(self._with_partner(routing.partner), routing=routing)
 
     def ask_around(self, before: Drawing) -> Drawing:
@@ -361,6 +402,8 @@ class Drawing:
             before: the same graph.
         """
         graph = _scaled(self.graph, 1 / self.scale)
+        if self.pencil:  # there, each junction is judged for itself
+            return self
         decided = self._decided
         score, heard = taught(graph, self.routing, before._decided, decided, self.settings)
         heard = heard[~self.routing.locked[heard]]

@@ -25,6 +25,8 @@ from .graph import Evidence, routed, run_passes
 from .graph.passes import ROUTED
 from .ink.unmixing import without_inks
 from .kept_stages import KeptStages, Source, keys
+from .rough import grouping
+from .rough.cleaning import Bundled, bundled, cleaned, is_rough
 from .routing import route
 from .scan import read_scan
 from .scan.registration import set_aside
@@ -193,9 +195,32 @@ class _Trace:
         with self._clock("strokes"):
             graph, fills, scan = _as_they_lay(graph, fills, scan)
             drawing = Drawing.from_routing(graph, routing, scan, self._settings, fills)
+            bundles = _bundles(graph, routing, scan, self._settings)
+            if bundles is not None:
+                drawing = _clean(drawing, bundles, scan, self._settings, fills)
         with self._clock("check"):
             drawing = replace(drawing.compared_with(scan), dpi=self._dpi())
         return self._made("strokes", drawing)
+
+
+def _bundles(
+    graph: PlanarGraph, routing: Routing, scan: Scan, settings: Settings
+) -> Bundled | None:
+    """The bundles of pencil strokes of a rough drawing; None for a clean one."""
+    known = grouping.available() or settings.drawing == "rough"
+    if settings.drawing == "clean" or not known or graph.branch_count == 0:
+        return None
+    found = bundled(graph, routing.partner, scan.ink)
+    return found if is_rough(found, graph, settings) else None
+
+
+def _clean(
+    drawn: Drawing, bundles: Bundled, scan: Scan, settings: Settings, fills: list[Fill]
+) -> Drawing:
+    """The clean drawing of a rough one."""
+    made = cleaned(bundles, settings, (scan.ink.shape[0], scan.ink.shape[1]))
+    lines = Drawing.from_routing(made.graph, made.routing, scan, settings, fills)
+    return lines.cleaned_from(drawn, made.said)
 
 
 def _as_they_lay(

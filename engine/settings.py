@@ -95,6 +95,16 @@ class Settings:
         measured, never typed in, and so has no option of its own.
     """
 
+    drawing: str = _one_of(
+        ("clean", "Clean", "Every line is drawn once"),
+        ("auto", "Automatic", "Rough where many lines run beside themselves"),
+        ("rough", "Rough", "Many pencil strokes say one line: find that line"),
+        stage="strokes",
+        group=WHAT,
+        label="Drawing",
+        tip="Whether every line is drawn once or by many pencil strokes",
+        more="See [from rough to clean](rough.md)",
+    )
     polarity: str = _one_of(
         ("auto", "Automatic", "Find out from the picture"),
         ("dark", "Dark on Light", "Ink or pencil on paper"),

@@ -44,6 +44,7 @@ def check_drawing(drawing: Drawing) -> None:
     for number, stroke in enumerate(drawing.strokes):
         _check_stroke(stroke, f"stroke {number}")
     check_graph(drawing.graph)
+    _check_pencil(drawing)
     check_routing(drawing.graph, drawing.routing)
     _check_walks(drawing)
     _check_lengths(drawing)
@@ -59,6 +60,18 @@ def check_drawing(drawing: Drawing) -> None:
         if drawing.settings.regions:
             count = len(drawing.regions)
             _need(len(drawing.region_colors) == count, "the colors of its regions don't fit them")
+
+
+def _check_pencil(drawing: Drawing) -> None:
+    pencil = drawing.pencil
+    if pencil is None:
+        return
+    for number, stroke in enumerate(pencil.strokes):
+        _check_stroke(stroke, f"pencil stroke {number}", runs=False)
+    what = "which pencil strokes say which lines"
+    _table(pencil.said, "i", (None, 2), what)
+    _numbered(pencil.said[:, 0], len(pencil.strokes), what)
+    _numbered(pencil.said[:, 1], drawing.graph.branch_count, what)
 
 
 def _check_fidelity(drawing: Drawing) -> None:
@@ -161,7 +174,7 @@ def _check_ways(ways: tuple[Alternative, ...], halves: set[int], where: str) -> 
     _need(total <= 1.001, f"the probabilities of {where} are more than one")
 
 
-def _check_stroke(stroke: Stroke, where: str) -> None:
+def _check_stroke(stroke: Stroke, where: str, runs: bool = True) -> None:
     count = len(stroke.points)
     _table(stroke.points, "f", (None, 2), f"the points of {where}")
     _need(count >= (1 if stroke.closed else 2), f"{where} has too few points")
@@ -172,7 +185,7 @@ def _check_stroke(stroke: Stroke, where: str) -> None:
     _table(stroke.opacity, "f", (count,), f"the opacity of {where}")
     _need(bool(((stroke.opacity >= 0) & (stroke.opacity <= 1)).all()), f"the opacity of {where}")
     _table(stroke.branches, "i", (None,), f"the branches of {where}")
-    _need(len(stroke.branches) > 0, f"{where} runs through no branch")
+    _need(len(stroke.branches) > 0 or not runs, f"{where} runs through no branch")
     _need(len(stroke.color) == 3, f"the color of {where} is none")
     if stroke.handles is not None:
         _table(stroke.handles, "f", (count, 2, 2), f"the handles of {where}")

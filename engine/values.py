@@ -261,6 +261,19 @@ class Stroke:
     handles: Array | None = None
 
 
+@dataclass(frozen=True, eq=False)
+class Pencil:
+    """The strokes of a rough drawing, of which a clean one was made.
+
+    strokes: as they were drawn, in input pixels; they run through no branches.
+    said: (K, 2) int32: a pencil stroke, and a branch of the clean graph that it is a part of;
+        what is in no row belongs to nothing. Sorted.
+    """
+
+    strokes: tuple[Stroke, ...]
+    said: Array
+
+
 @dataclass(frozen=True)
 class Junction:
     """A junction, or a corner (of two half-branches), as the user sees it; position in input

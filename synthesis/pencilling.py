@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
 from .line_art import Array, Rng, Strokes, resample
 
 MEDIA = ("pencil", "soft pencil", "pencil", "coloured pencil", "ballpoint", "charcoal", "fineliner")
+
+
+_AT_ONCE = 4  # samples of 2 px, within which a corner turns
 
 
 @dataclass(frozen=True)
@@ -77,6 +81,27 @@ def _along(
         rng.uniform(2, 6) * t + rng.uniform(0, 7)
     )
     return (points + normal * (aside * (0.4 if sure else 1.0))[:, None]).astype(np.float32)
+
+
+def in_pieces(rng: Rng, lines: Strokes, share: float, sharp: float = 40.0) -> Strokes:
+    """Lines cut at that share of their corners, as somebody draws who lifts the pencil there.
+
+    sharp: degrees by which a line turns within a few px where it has a corner.
+    """
+    pieces: Strokes = []
+    for line in lines:
+        dense = resample(line, 2.0)
+        way = np.diff(dense, axis=0)
+        heading = np.unwrap(np.arctan2(way[:, 1], way[:, 0]))
+        turn = np.abs(heading[_AT_ONCE:] - heading[:-_AT_ONCE]) if len(heading) > _AT_ONCE else []
+        cuts, last = [0], -2 * _AT_ONCE
+        for at in np.flatnonzero(np.asarray(turn) > np.radians(sharp)):
+            if at - last > 2 * _AT_ONCE and rng.random() < share:
+                cuts.append(int(at) + _AT_ONCE // 2 + 1)
+            last = at
+        cuts.append(len(dense) - 1)
+        pieces += [dense[a : b + 1] for a, b in pairwise(cuts) if b - a >= 2]
+    return pieces
 
 
 def construction(rng: Rng, size: int) -> Strokes:

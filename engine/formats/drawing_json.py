@@ -26,7 +26,7 @@ from ..fidelity import Fidelity
 from ..routing import with_corners
 from ..settings import Settings
 from ..soundness import UnsoundError, check_drawing, check_graph
-from ..values import Alternative, Array, PlanarGraph, Routing, Stroke
+from ..values import Alternative, Array, Pencil, PlanarGraph, Routing, Stroke
 from .whole_file import write_text
 
 FORMAT, VERSION = "involute drawing", 1
@@ -41,7 +41,7 @@ def write(drawing: Drawing, path: Path) -> None:
 
 def dumps(drawing: Drawing) -> str:
     """The drawing as JSON text."""
-    routing, strokes = drawing.routing, drawing.strokes
+    routing, pencil = drawing.routing, drawing.pencil
     rings = [ring for fill in drawing.fills for ring in fill]
     document = {
         "format": FORMAT,
@@ -61,18 +61,7 @@ def dumps(drawing: Drawing) -> str:
                 [[a.pairs, a.probability] for a in ways] for ways in routing.alternatives
             ],
         },
-        "strokes": {
-            "points": _joined([s.points for s in strokes], (0, 2)),
-            "offsets": _packed(_offsets([len(s.points) for s in strokes])),
-            "widths": _joined([s.widths for s in strokes], (0,)),
-            "opacity": _joined([s.opacity for s in strokes], (0,)),
-            "closed": _packed(np.array([s.closed for s in strokes], bool)),
-            "color": _packed(np.array([s.color for s in strokes], np.uint8).reshape(-1, 3)),
-            "branches": _joined([s.branches for s in strokes], (0,), np.int32),
-            "branch_offsets": _packed(_offsets([len(s.branches) for s in strokes])),
-            "curved": _packed(np.array([s.handles is not None for s in strokes], bool)),
-            "handles": _joined([s.handles for s in strokes if s.handles is not None], (0, 2, 2)),
-        },
+        "strokes": _stroke_tables(drawing.strokes),
         "fills": {
             "points": _joined(rings, (0, 2)),
             "offsets": _packed(_offsets([len(ring) for ring in rings])),
@@ -82,8 +71,24 @@ def dumps(drawing: Drawing) -> str:
         "fidelity": drawing.fidelity and drawing.fidelity.as_dict(),
         "notes": list(drawing.notes),
         "warnings": list(drawing.warnings),
+        "pencil": pencil and {**_stroke_tables(pencil.strokes), "said": _packed(pencil.said)},
     }
     return json.dumps(document, separators=(",", ":"))
+
+
+def _stroke_tables(strokes: Sequence[Stroke]) -> dict[str, Any]:
+    return {
+        "points": _joined([s.points for s in strokes], (0, 2)),
+        "offsets": _packed(_offsets([len(s.points) for s in strokes])),
+        "widths": _joined([s.widths for s in strokes], (0,)),
+        "opacity": _joined([s.opacity for s in strokes], (0,)),
+        "closed": _packed(np.array([s.closed for s in strokes], bool)),
+        "color": _packed(np.array([s.color for s in strokes], np.uint8).reshape(-1, 3)),
+        "branches": _joined([s.branches for s in strokes], (0,), np.int32),
+        "branch_offsets": _packed(_offsets([len(s.branches) for s in strokes])),
+        "curved": _packed(np.array([s.handles is not None for s in strokes], bool)),
+        "handles": _joined([s.handles for s in strokes if s.handles is not None], (0, 2, 2)),
+    }
 
 
 def read(text: str, name: str = "The file") -> Drawing:
@@ -175,7 +180,13 @@ def _drawing(document: dict[str, Any]) -> Drawing:
         fidelity=Fidelity.from_dict(document["fidelity"]) if document.get("fidelity") else None,
         notes=tuple(map(str, document.get("notes", ()))),
         warnings=tuple(map(str, document.get("warnings", ()))),
+        pencil=_pencil(tables(document["pencil"])) if document.get("pencil") else None,
     )
+
+
+def _pencil(data: dict[str, Array]) -> Pencil:
+    said = data.pop("said")
+    return Pencil(tuple(_strokes(data)), said)
 
 
 def _strokes(data: dict[str, Array]) -> list[Stroke]:

@@ -25,7 +25,12 @@ from .flatten import outline
 from .whole_file import write_text
 
 INKSCAPE = "http://www.inkscape.org/namespaces/inkscape"
-_NO_LINES = {"data-fill", "data-region", "data-outline"}
+_NO_LINES = {"data-fill", "data-region", "data-outline", "data-pencil"}
+# The transform makes simple readers look at the layer closely enough to see that it is hidden.
+_HIDDEN = (
+    ' id="pencil" display="none" transform="translate(0 0)" opacity="0.4" '
+    'fill="none" stroke-linecap="round" stroke-linejoin="round"'
+)
 _FARTHEST = 1e7  # px from the page's corner
 _COMMAND = re.compile(r"([MLCZ])([^MLCZ]*)")
 
@@ -39,7 +44,7 @@ def dumps(drawing: Drawing) -> str:
     """The drawing as the text of an SVG file."""
     lines = [*opening(drawing), *below(drawing)]
     lines.append('<g id="strokes" fill="none" stroke-linecap="round" stroke-linejoin="round">')
-    lines += center_lines(drawing.strokes)
+    lines += center_lines(drawing)
     return "\n".join([*lines, "</g>", "</svg>", ""])
 
 
@@ -67,6 +72,10 @@ def below(drawing: Drawing) -> list[str]:
         lines += _areas("region", drawing.regions, [tuple(color) for color in colors.tolist()])
     if drawing.fills:
         lines += _areas("fill", drawing.fills, [(0, 0, 0)] * len(drawing.fills))
+    if drawing.pencil:
+        lines.append(layer("Pencil", _HIDDEN))
+        lines += [_path(i, stroke, "pencil") for i, stroke in enumerate(drawing.pencil.strokes)]
+        lines.append("</g>")
     return lines
 
 
@@ -75,12 +84,13 @@ def layer(name: str, attributes: str = "") -> str:
     return f'<g inkscape:groupmode="layer" inkscape:label="{name}"{attributes}>'
 
 
-def center_lines(strokes: Sequence[Stroke]) -> list[str]:
+def center_lines(drawing: Drawing) -> list[str]:
     """A layer per ink with the paths of its strokes."""
+    strokes, said_by = drawing.strokes, drawing.pencil_of
     lines = []
     for ink in ink_layers(strokes):
         lines.append(layer(ink.name))
-        lines += [_path(number, strokes[number]) for number in ink.numbers]
+        lines += [_path(number, strokes[number], said_by=said_by(number)) for number in ink.numbers]
         lines.append("</g>")
     return lines
 
@@ -149,13 +159,15 @@ def rings(area: Sequence[Array]) -> str:
     return " ".join(polyline(ring) + " Z" for ring in area)
 
 
-def _path(index: int, stroke: Stroke) -> str:
+def _path(index: int, stroke: Stroke, kind: str = "stroke", said_by: Sequence[int] = ()) -> str:
     data = polyline(_repeat_first(stroke)) if stroke.handles is None else _bezier(stroke)
     opacity, widths = stroke.opacity, stroke.widths
     parts = [
-        f'<path data-stroke="{index}" d="{data}" fill="none"',
+        f'<path data-{kind}="{index}" d="{data}" fill="none"',
         f'stroke="#{bytes(stroke.color).hex()}" stroke-width="{float(widths.mean()):.4g}"',
     ]
+    if said_by:
+        parts.append(f'data-said-by="{" ".join(map(str, said_by))}"')
     if stroke.closed:
         parts.append('data-closed="1"')
     if opacity.min() < 1:

@@ -24,7 +24,7 @@ def write(drawing: Drawing, path: Path) -> None:
         lines += [_shape(number, drawing.strokes[number]) for number in ink.numbers]
         lines.append("</g>")
     lines.append(svg.layer("Center Lines", ' style="display:none" fill="none"'))
-    lines += svg.center_lines(drawing.strokes)
+    lines += svg.center_lines(drawing)
     write_text("\n".join([*lines, "</g>", "</svg>", ""]), path)
 
 

@@ -27,12 +27,15 @@ _HEARD = 1e-3  # log-odds; smaller changes are those of rounding
 Scorer = Callable[[PlanarGraph, Array, Fixed], Array]
 
 
-def route(graph: PlanarGraph, settings: Settings, fixed: Fixed | None = None) -> Routing:
+def route(
+    graph: PlanarGraph, settings: Settings, fixed: Fixed | None = None, *, rough: bool = False
+) -> Routing:
     """Pair the half-branches of every junction and every corner.
 
     Args:
         fixed: number of a place -> the pairs that the user has decided; they are kept and locked,
             and the scorers may learn from them.
+        rough: the lines are those of a rough drawing, see `rough.continuing`.
 
     Raises:
         InvoluteError: fixed pairs that are not disjoint pairs of half-branches of their junction.
@@ -41,7 +44,7 @@ def route(graph: PlanarGraph, settings: Settings, fixed: Fixed | None = None) ->
     pairs = candidate_pairs(graph)
     turns = lifting.score(graph, fixed)
     crossing = len(pairs) - len(turns)
-    score = np.concatenate([_at_junctions(graph, pairs[:crossing], fixed, settings), turns])
+    score = np.concatenate([_at_junctions(graph, pairs[:crossing], fixed, settings, rough), turns])
     alternatives = ranked_alternatives(graph, score, fixed)
 
     best = [fixed.get(j, ways[0].pairs) for j, ways in enumerate(alternatives)]
@@ -135,7 +138,9 @@ def with_corners(routing: Routing, graph: PlanarGraph) -> Routing:
     )
 
 
-def _at_junctions(graph: PlanarGraph, pairs: Array, fixed: Fixed, settings: Settings) -> Array:
+def _at_junctions(
+    graph: PlanarGraph, pairs: Array, fixed: Fixed, settings: Settings, rough: bool = False
+) -> Array:
     """(K,) scores of the pairs at junctions, which see their branches whole, corners and all."""
     if not len(pairs):
         return np.zeros(0, np.float32)
@@ -147,10 +152,10 @@ def _at_junctions(graph: PlanarGraph, pairs: Array, fixed: Fixed, settings: Sett
         for place, ways in fixed.items()
         if place < len(graph.junctions)
     }
-    return scorer_for(settings)(whole, number[pairs], decided)
+    return scorer_for(settings, rough)(whole, number[pairs], decided)
 
 
-def scorer_for(settings: Settings) -> Scorer:
+def scorer_for(settings: Settings, rough: bool = False) -> Scorer:
     """The scorer that the settings ask for; "auto" = the network when its weights are there."""
     from . import geometric
 
@@ -159,6 +164,8 @@ def scorer_for(settings: Settings) -> Scorer:
 
     if settings.router == "geometric":
         return by_geometry
+    if rough:
+        return _by_bundles
     from . import network
 
     def by_network(graph: PlanarGraph, pairs: Array, fixed: Fixed) -> Array:
@@ -169,6 +176,13 @@ def scorer_for(settings: Settings) -> Scorer:
     if settings.router == "network" or network.available():
         return by_network
     return by_geometry
+
+
+def _by_bundles(graph: PlanarGraph, pairs: Array, fixed: Fixed) -> Array:
+    from ..rough import continuing
+    from . import geometric
+
+    return continuing.score(graph, pairs) + geometric.tint_score(graph, pairs)
 
 
 def around(halves: Array, routing: Routing, pairs: set[Pair]) -> tuple[Pair, ...]:

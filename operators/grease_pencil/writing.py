@@ -11,7 +11,7 @@ import numpy as np
 from ...engine.ink.ink_names import ink_layers, ink_name
 from . import cels
 from .core.pixel_map import PixelMap
-from .core.stroke_arrays import HALF, TRACE, Curves, bridge_holes, column, stroke_curves
+from .core.stroke_arrays import HALF, LINE, TRACE, Curves, bridge_holes, column, stroke_curves
 
 if TYPE_CHECKING:
     from ...engine import Drawing
@@ -20,7 +20,10 @@ Array = np.ndarray
 
 FILL_LAYER = "Solids"
 REGION_LAYER = "Regions"
-_BELOW = (FILL_LAYER, REGION_LAYER)  # the last lies lowest
+PENCIL_LAYER = "Pencil"
+_BELOW = (PENCIL_LAYER, FILL_LAYER, REGION_LAYER)  # the last lies lowest
+_DIMMED = 0.3  # opacity of the layer of pencil strokes
+_NOT_RENDERED = "(not rendered)"  # a view layer that nobody has
 _FILLS_BY_STROKE = (5, 1, 0)  # since then strokes say whether they are filled, not materials
 
 
@@ -42,7 +45,8 @@ def write(
     clear: bool = True,
     into: Into | None = None,
 ) -> None:
-    """Write a drawing as the keyframe `frame`: a layer per ink, solid blacks on a layer below.
+    """Write a drawing as the keyframe `frame`: a layer per ink, solid blacks on a layer below,
+    the pencil strokes of a rough drawing on another one.
 
     What was traced onto these layers at that very frame is replaced; other layers stay.
 
@@ -61,6 +65,9 @@ def write(
         fills = _keyframe(data, REGION_LAYER, frame, clear), data, drawing.regions
         white = (255, 255, 255)
         _write_fills(*fills, REGION_LAYER, white, pixel_map, key, drawing.region_colors)
+    if drawing.pencil and drawing.pencil.strokes:
+        written.add(PENCIL_LAYER)
+        _write_pencil(data, frame, drawing, pixel_map, key)
     inks = ink_layers(drawing.strokes)
     for ink in inks:
         layer = into.layer if into else ink.name
@@ -96,6 +103,25 @@ def _keyframe(data: bpy.types.ID, name: str, frame: int, clear: bool = True) -> 
         traced = cels.read_column(cel, TRACE)
         cel.remove_strokes(indices=np.flatnonzero(traced).tolist())
     return cel
+
+
+def _write_pencil(
+    data: bpy.types.ID, frame: int, drawing: Drawing, pixel_map: PixelMap, key: int
+) -> None:
+    """Write the pencil strokes of a rough drawing, dimmed, on a layer that is not rendered.
+
+    Each says in an attribute which line it is a part of, by a half-branch of it.
+    """
+    assert drawing.pencil is not None
+    is_new = PENCIL_LAYER not in data.layers
+    cel = _keyframe(data, PENCIL_LAYER, frame)
+    if is_new:
+        layer = data.layers[PENCIL_LAYER]
+        layer.opacity, layer.viewlayer_render = _DIMMED, _NOT_RENDERED
+    material = _material_slot(data, PENCIL_LAYER, (0, 0, 0), fill=False)
+    curves = stroke_curves(drawing.pencil.strokes, pixel_map, key, material)
+    curves.curves[LINE] = column("INT", drawing.line_of_pencil)
+    cels.append(cel, curves)
 
 
 def _has_traces(cel: object) -> bool:

@@ -22,6 +22,12 @@ def circle(x: float, y: float, radius: float) -> np.ndarray:
     return np.stack([x + radius * np.cos(angle), y + radius * np.sin(angle)], -1)
 
 
+def test_lines_far_off_the_page_are_refused():
+    for far in (1e7, -1e38):
+        with pytest.raises(ValueError, match="far off the page"):
+            scaled([np.array([[0, 0], [far, 5]])], (100, 100))
+
+
 def test_the_truth_itself_is_perfect():
     score = evaluate(CROSS, CROSS)
     assert score.chamfer == 0

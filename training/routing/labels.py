@@ -53,17 +53,20 @@ class _Claims:
         return _Claims(*(getattr(self, name)[rows] for name in names))
 
 
-def labelled(graph: PlanarGraph, strokes: list[Array]) -> Page:
+def labelled(graph: PlanarGraph, strokes: list[Array], near: float = _NEAR) -> Page:
     """The page of a traced graph whose true strokes are known, (N, 2) px each.
 
     Lines drawn twice count once, as in `planar`; points that no stroke made have stroke -1.
+
+    Args:
+        near: px; a stroke this near may be the one that was traced.
     """
     strokes = single_lines(strokes)
     partner = np.arange(2 * graph.branch_count)
     owner = np.full(len(partner), -1)
     if strokes and graph.branch_count:
         lines = _Lines.of(strokes)
-        claims = _claims(graph, lines)
+        claims = _claims(graph, lines, near)
         claims = claims.take(_owners(graph, claims, lines))
         owner[claims.half] = claims.stroke
         for a, b in _continued(graph, claims, lines):
@@ -108,10 +111,11 @@ class _Lines:
         )
 
 
-def _claims(graph: PlanarGraph, lines: _Lines) -> _Claims:
+def _claims(graph: PlanarGraph, lines: _Lines, reach: float) -> _Claims:
     """Every stroke, in each of its directions, that runs along enough of a half-branch."""
     half, out, place, heading, weight, least = _course(graph)
-    near = cKDTree(place).sparse_distance_matrix(cKDTree(lines.place), _NEAR, output_type="ndarray")
+    tree = cKDTree(place)
+    near = tree.sparse_distance_matrix(cKDTree(lines.place), reach, output_type="ndarray")
     row, hit, distance = near["i"], near["j"], near["v"]
     turn = (heading[row] * lines.tangent[hit]).sum(1)
     good = np.abs(turn) > least[row]
@@ -122,7 +126,7 @@ def _claims(graph: PlanarGraph, lines: _Lines) -> _Claims:
     first = _changes(row, lines.stroke[hit], sign)
     row, hit, distance, sign = (v[first] for v in (row, hit, distance, sign))
 
-    worth = weight[row] * (1 - (distance / (_NEAR + 0.5)) ** 2)
+    worth = weight[row] * (1 - (distance / (reach + 0.5)) ** 2)
     start = lines.arc[hit] - sign * out[row]
     order = np.lexsort((start, sign, lines.stroke[hit], half[row]))
     row, hit, sign, worth, start = (v[order] for v in (row, hit, sign, worth, start))

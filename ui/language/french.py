@@ -80,6 +80,18 @@ TEXTS = {
     "What the Drawing Is": "Nature du dessin",
     "How Clean": "Propreté",
     "How Many Points": "Nombre de points",
+    "Whether every line is drawn once or by many pencil strokes": (
+        "Si chaque ligne est tracée une fois ou par plusieurs traits de crayon"
+    ),
+    "Rough where many lines run beside themselves": (
+        "Esquisse là où beaucoup de lignes se doublent"
+    ),
+    "Clean": "Propre",
+    "Every line is drawn once": "Chaque ligne est tracée une fois",
+    "Rough": "Esquisse",
+    "Many pencil strokes say one line: find that line": (
+        "Plusieurs traits de crayon disent une ligne : trouver cette ligne"
+    ),
     "Lines": "Lignes",
     "Which side of the picture is ink": "Quel côté de l'image est l'encre",
     "Find out from the picture": "Le déduire de l'image",

@@ -86,6 +86,19 @@ TEXTS = {
     "What the Drawing Is": "Was die Zeichnung ist",
     "How Clean": "Wie sauber",
     "How Many Points": "Wie viele Punkte",
+    "Drawing": "Zeichnung",
+    "Whether every line is drawn once or by many pencil strokes": (
+        "Ob jede Linie einmal gezeichnet ist oder mit vielen Bleistiftstrichen"
+    ),
+    "Rough where many lines run beside themselves": (
+        "Roh, wo viele Linien neben sich selbst laufen"
+    ),
+    "Clean": "Rein",
+    "Every line is drawn once": "Jede Linie ist einmal gezeichnet",
+    "Rough": "Roh",
+    "Many pencil strokes say one line: find that line": (
+        "Viele Bleistiftstriche meinen eine Linie: diese Linie finden"
+    ),
     "Lines": "Linien",
     "Which side of the picture is ink": "Welche Seite des Bildes Tusche ist",
     "Find out from the picture": "Am Bild herausfinden",
@@ -496,7 +509,6 @@ TEXTS = {
         "sind; nichts wurde geändert."
     ),
     # what is looked at
-    "Drawing": "Zeichnung",
     "The traced drawing that is looked at": "Die Zeichnung, die betrachtet wird",
     "The current junction": "Die aktuelle Kreuzung",
     "Preview": "Vorschau",

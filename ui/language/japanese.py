@@ -81,6 +81,16 @@ TEXTS = {
     "What the Drawing Is": "線画の種類",
     "How Clean": "クリーンアップ",
     "How Many Points": "ポイントの数",
+    "Whether every line is drawn once or by many pencil strokes": (
+        "各線が一度で描かれているか、何本もの鉛筆の線で描かれているか"
+    ),
+    "Rough where many lines run beside themselves": "多くの線が重なって走るところはラフとします",
+    "Clean": "清書",
+    "Every line is drawn once": "各線は一度で描かれています",
+    "Rough": "ラフ",
+    "Many pencil strokes say one line: find that line": (
+        "何本もの鉛筆の線が一本の線を表します。その線を見つけます"
+    ),
     "Lines": "線",
     "Which side of the picture is ink": "画像のどちら側がインクか",
     "Find out from the picture": "画像から判断します",

@@ -9,6 +9,8 @@ artist has worked on it (named with a dot: hidden from the lists in the interfac
     .involute_routing per stroke   which routing of the drawing the stroke is in (see
                                    `stored_trace.mark_of`); 0 or missing = the one before the first
                                    change
+    involute_line     per stroke   of a pencil stroke: `.involute_half` of the line that it is part
+                                   of, as it was traced; 0 = of none
     .involute_along   per point    length along the stroke as it was traced, in pixels
 
 Blender interpolates the last one when points are added and keeps it when they move, so it still
@@ -33,6 +35,7 @@ Array = np.ndarray
 POLY, BEZIER = 1, 2  # Blender's numbers for the types of a curve
 TRACE, HALF, ALONG = ".involute_trace", ".involute_half", ".involute_along"
 ROUTING = ".involute_routing"
+LINE = "involute_line"
 
 WEIGHT = "WEIGHT"  # no attribute but a vertex group: see `vertex_weights`
 

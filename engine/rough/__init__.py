@@ -1,0 +1,1 @@
+"""Rough drawings: many pencil strokes say one line."""

@@ -1,0 +1,153 @@
+"""From rough to clean: the lines that many pencil strokes mean, and whether there are any such.
+
+The pencil strokes are traced as on every page. Then, after StripMaker's order of things (Liu et
+al., "StripMaker: Perception-driven Learned Vector Sketch Consolidation", 2023): which stretches of
+them mean one line (`grouping`), where that line lies (`consensus`), what of it is meant at all
+(`meant`), and which lines go on in which (`continuing`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..graph.topology import lengths
+from ..routing import route
+from ..settings import Settings
+from ..values import Array, PlanarGraph, Routing
+from . import grouping
+from .beside import Rungs, rungs
+from .consensus import consensus
+from .meant import meant_lines
+from .redrawn import Bundles
+from .sampled import Sampled
+
+# A page is rough when so much of its length runs beside itself; or less, when lines often run on
+# beyond their ends, too. Held-out pages (training/rough): 16 of 20 rough ones have that, and 2 of
+# 12 clean ones.
+ROUGH, HARDLY = 0.1, 0.018  # share of the length
+OVERSHOT = 0.7  # loose ends that stick out of another line, in 100 pens of length
+_STICKS_OUT = (1.5, 8.0)  # pens; length of such an end
+_ONE = 0.5  # probability from which on two strokes mean one line
+_HATCHING = 0.05  # what knows hatching lets less than that pass on no page
+_OWN_WIDTH = 0.35  # quantile of the widths that is a single pencil stroke's: bundles are wider
+_REACH = (3.0, 4.0, 24.0)  # pens, and px more, and px at most, between strokes of one line
+
+
+@dataclass(frozen=True, eq=False)
+class Bundled:
+    """Pencil strokes, with the rungs between them and which of these join strokes of one line.
+
+    one: (K,) bool, for each rung, on a page that is known to be rough. told: (K,) bool, the same on
+    a page of which nothing is known.
+    """
+
+    strokes: Sampled
+    rungs: Rungs
+    one: Array
+    told: Array
+    pen: float
+
+    @property
+    def share(self) -> float:
+        """Of the length of all strokes, what runs beside another stroke of the same line."""
+        held = np.zeros(len(self.strokes.points), bool)
+        held[self.rungs.a[self.told]] = True
+        return float(held.mean()) if len(held) else 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class Cleaned:
+    """The lines of a rough drawing: graph and routing in working pixels, and (K, 2) int32 which
+    pencil strokes say which branches of the graph."""
+
+    graph: PlanarGraph
+    routing: Routing
+    said: Array
+
+
+def reach_of(pen: float) -> float:
+    """How far apart two strokes of one line may lie, px; pen: the width of one, px."""
+    times, more, most = _REACH
+    return min(times * pen + more, most)
+
+
+def beside_each_other(graph: PlanarGraph, partner: Array, shape: tuple[int, int]) -> Bundled:
+    """All that runs beside each other on a page, none of it judged yet.
+
+    Args:
+        graph, partner: of the pencil strokes, measured. shape: (height, width), px.
+    """
+    strokes = Sampled.of(graph, partner)
+    pen = max(float(np.median(strokes.width)), 1.0)
+    found = rungs(strokes, shape, reach_of(pen))
+    none = np.zeros(len(found.a), bool)
+    return Bundled(strokes, found, none, none, pen)
+
+
+def bundled(
+    graph: PlanarGraph, partner: Array, ink: Array, net: Mapping[str, Array] | None = None
+) -> Bundled:
+    """Which pencil strokes mean one line.
+
+    Args:
+        graph, partner: of the pencil strokes, measured. ink: (H, W) of the page.
+        net: other weights.
+
+    Raises:
+        InvoluteError: the weights are damaged.
+        OSError: there are none.
+    """
+    found = beside_each_other(graph, partner, (ink.shape[0], ink.shape[1]))
+    if not len(found.one):
+        return found
+    rows = grouping.features(found.strokes, found.rungs, ink, found.pen)
+    told = grouping.probability(rows, "tells", net)[found.rungs.stretch]
+    one = grouping.probability(rows, "same", net)[found.rungs.stretch]
+    return replace(found, one=(one > _ONE) & (told > _HATCHING), told=told > _ONE)
+
+
+def is_rough(bundles: Bundled, graph: PlanarGraph, settings: Settings) -> bool:
+    """Whether a drawing is rough: as the user says, or as its lines are drawn.
+
+    Args:
+        graph: of its pencil strokes.
+    """
+    if settings.drawing != "auto":
+        return settings.drawing == "rough"
+    if bundles.share > ROUGH:
+        return True
+    return bundles.share > HARDLY and overshooting(graph, bundles.pen) > OVERSHOT
+
+
+def overshooting(graph: PlanarGraph, pen: float) -> float:
+    """How many lines run on a little beyond another one, in 100 pens of length."""
+    length = lengths(graph) / pen
+    degree = graph.degrees[graph.ends]
+    least, most = _STICKS_OUT
+    loose = (degree.min(1) == 1) & (degree.max(1) >= 3) & (length > least) & (length < most)
+    return float(100 * loose.sum() / max(length.sum(), 1e-6))
+
+
+def redrawn(
+    found: Bundled, settings: Settings, shape: tuple[int, int]
+) -> tuple[Bundles, PlanarGraph]:
+    """The bundles drawn as one line each, and the graph of all of them, meant or not."""
+    moved = consensus(found.strokes, found.rungs, found.one.astype(float))
+    bundles = Bundles.of(found.strokes, moved, shape)
+    pen = float(np.quantile(found.strokes.width, _OWN_WIDTH))
+    return bundles, bundles.graph(pen, settings)
+
+
+def cleaned(found: Bundled, settings: Settings, shape: tuple[int, int]) -> Cleaned:
+    """The lines that the pencil strokes mean.
+
+    Args:
+        shape: (height, width) of the page, px.
+    """
+    bundles, graph = redrawn(found, settings, shape)
+    graph = meant_lines(graph, bundles, found.pen)
+    routing = route(graph, settings, rough=True)
+    return Cleaned(graph, routing, bundles.said(graph))
