@@ -24,13 +24,13 @@ _DARK = 0.45  # mean ink of a broad line, its grain included
 # Bundles of close lines on held-out pages have ink on 0.91 of what looks like one broad line in the
 # reduced picture; markers, and a bold pen, on 0.96 and more.
 _INKED, _SOLID = 0.35, 0.945
-_LONG = 6.0  # widths that a line is long; what is shorter may as well be a shape
+_LONG = 5.0  # widths that a line is long (4 to 6 do alike); what is shorter may well be a shape
 _EVEN, _UNEVEN = 0.8, 0.3  # share of a line that is as wide as the rest, give or take so much
 _SWOLLEN = 2.6  # times as wide as the rest: a line with a spot like that runs into a shape
-# These five were chosen together on 120 pages of several pens (`python -m benchmarks run
-# scan_limits`), by pixels of all that is deep enough to be looked at: 0.48 and 0.39 of the broad
-# lines are found in either half of the pages, and what is found wrongly is 0.011 of their area.
-# With 5 widths, 0.15, 12 pens and any spot it was 0.26 and 0.26, and 0.012 and 0.051.
+# These five were chosen together on 120 pages of several pens (`synthesis.hard_pages`), by the area
+# of what was looked at: 0.49 and 0.42 of the broad lines are found in either half of the pages, and
+# 0.011 of other ink. With 0.15, 12 pens and any spot it was 0.26 and 0.26, and 0.012 and 0.051.
+# `python -m benchmarks run scan_limits` shows each of them alone.
 
 
 @dataclass(frozen=True, eq=False)
