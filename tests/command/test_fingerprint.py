@@ -26,7 +26,7 @@ TRACE = """
 import sys
 from program.command.cli import main
 sys.exit(main(["trace", sys.argv[1], "-o", sys.argv[2], "--format", "json", "--resume",
-               "--corners", "0", "--report", sys.argv[3]]))
+               "--corners", "0", "--drawing", "rough", "--report", sys.argv[3]]))
 """
 FRAMES = """
 import sys
