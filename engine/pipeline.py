@@ -156,7 +156,7 @@ class _Trace:
             maps = look(lines, tick)
             if wide.any:
                 maps = look_again(maps, lines, wide, look, settings)
-            if settings.provider in ("auto", "network") and maps.half_width is not None:
+            if settings.provider in ("auto", "network", "lean") and maps.half_width is not None:
                 maps = mended(maps, lines, wide.near if wide.any else None)
         return self._made("centerline", maps)
 

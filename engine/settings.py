@@ -250,6 +250,11 @@ class Settings:
     provider: str = _one_of(
         ("auto", "Automatic", "The trained network when it is there, else the ridge filter"),
         ("network", "Network", "Trained on pencil, ink, chalk and bad scans"),
+        (
+            "lean",
+            "Lean Network",
+            "Smaller, in two thirds of the time; cuts grainy lines more",
+        ),
         ("classical", "Ridge Filter", "No learning; for very clean lines"),
         ("given", "Picture Is Centerlines", "Thin white lines on black, made elsewhere"),
         group=CLEAN,

@@ -30,7 +30,7 @@ def provider_for(settings: Settings) -> CenterlineProvider:
     if settings.provider != "classical":
         from . import learned
 
-        if settings.provider == "network" or learned.available():
+        if settings.provider in ("network", "lean") or learned.available():
             return learned.provider(settings)
     from .classical import classical
 

@@ -4,7 +4,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
-_FILES = (("Line finder", "centerline.onnx"), ("Junction router", "routing.onnx"))
+_FILES = (
+    ("Line finder", "centerline.onnx"),
+    ("Lean line finder", "centerline_lean.onnx"),
+    ("Junction router", "routing.onnx"),
+)
 
 
 def found_networks() -> list[tuple[str, str]]:

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from involute.engine.centerline import learned, tiles
+from involute.engine.centerline import learned, provider_for, tiles
 from involute.engine.centerline.backends import _torch_gpu, load
 from involute.engine.errors import Cancelled, InvoluteError
 from involute.engine.settings import Settings
@@ -178,3 +178,18 @@ def test_size_of_the_tiles_makes_no_difference(monkeypatch):
     tiled = trace(ink)
     for name in ("centerline", "junctions", "endpoints", "solid"):
         np.testing.assert_allclose(getattr(tiled, name), getattr(whole, name), atol=1e-3)
+
+
+def test_the_lean_network_sees_the_same_line_and_what_it_means():
+    ink = np.zeros((160, 224), np.float32)
+    cv2.line(ink, (20, 120), (200, 40), 1.0, 3, cv2.LINE_AA)
+    found = []
+    for name in ("network", "lean"):
+        look = provider_for(Settings(provider=name))
+        maps = look(Scan(ink, None, 1.0, ink.shape[::-1], 3.0), silent)
+        found.append(maps.centerline > 0.5)
+    there = cv2.dilate(found[0].astype(np.uint8), np.ones((3, 3), np.uint8)) > 0
+    assert there[found[1]].all()
+    assert found[1].sum() > 0.9 * found[0].sum()
+    assert maps.clean is not None
+    assert (maps.clean > 0.5)[found[1]].mean() > 0.9
