@@ -23,6 +23,7 @@ _WIDTH_STEP = 0.12  # change of width, in pen widths, that is worth a point of i
 _OPACITY_STEP = 0.12
 _COARSER = 2.0  # times these steps for curves, which are to have few points
 _POINT = 1e-3  # px; a line that is shorter is a point to whoever draws it
+_SHRUNK = 0.1  # share of its reach that smoothing must leave of a line
 _APART = 1e3  # between samples; so much more than any change of the ink
 
 
@@ -40,6 +41,7 @@ def build(page: Page, walks: Sequence[Walk]) -> list[Stroke]:
     points = _with_length(smooth(points, lines, corner, page.settings.smoothing), raw, lines)
     widths, opacity = _ink(page, lines)
     kept, handles = _few(page, lines, corner, points, widths, opacity)
+    kept |= _drawn_together(points, lines, kept, handles)
 
     strokes = []
     for walk, start, stop in zip(walks, lines.start, lines.stop, strict=True):
@@ -89,7 +91,8 @@ def _few(
 def _with_length(points: Array, raw: Array, lines: Lines) -> Array:
     """The smoothed points; a line that smoothing has drawn together to a point stays as it was."""
     away, run, begin = _away(points, lines)
-    gone = np.maximum.reduceat(away, begin) < _POINT
+    before = np.maximum.reduceat(_away(raw, lines)[0], begin)
+    gone = np.maximum.reduceat(away, begin) < np.maximum(_POINT, _SHRUNK * before)
     return np.where(gone[run][:, None], raw, points)
 
 
@@ -102,12 +105,30 @@ def _turning(points: Array, lines: Lines) -> Array:
     return back[run] & (away >= np.maximum.reduceat(away, begin)[run])
 
 
+def _drawn_together(points: Array, lines: Lines, kept: Array, handles: Array | None) -> Array:
+    """(N,) bool: all samples of the lines of which few points, and their curve, would leave one."""
+    away, run, begin = _away(points, lines)
+    inside = away >= 0
+    reach = np.where(kept & inside, away, 0.0)
+    if handles is not None:
+        off = handles - points[lines.start][run][:, None]
+        off = np.hypot(*np.moveaxis(off, -1, 0)).max(1)
+        reach = np.maximum(reach, np.where(kept & inside, off, 0.0))
+    gone = (np.maximum.reduceat(reach, begin) < _POINT)[run] & inside
+    if handles is not None:
+        handles[gone] = points[gone][:, None]  # straight from one to the next
+    return gone
+
+
 def _away(points: Array, lines: Lines) -> tuple[Array, Array, Array]:
-    """(N,) px of each sample from where its line begins, (N,) the line's number, and (S,) where its
-    run begins."""
+    """(N,) px of each sample from where its line begins, -1 before and after the line itself; (N,)
+    the line's number, and (S,) where its run begins."""
     begin = lines.first[lines.start]
     run = np.searchsorted(begin, lines.first)
-    return np.hypot(*(points - points[lines.start][run]).T), run, begin
+    number = np.arange(len(points))
+    inside = (number >= lines.start[run]) & (number < lines.stop[run])
+    away = np.hypot(*(points - points[lines.start][run]).T)
+    return np.where(inside, away, -1.0), run, begin
 
 
 def _ink(page: Page, lines: Lines) -> tuple[Array, Array]:

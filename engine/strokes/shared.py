@@ -15,6 +15,7 @@ from ..ink.pencil import undimmed
 from ..settings import Settings
 from ..values import Array, PlanarGraph
 
+_RING = 4  # pieces of a line that comes back to where it began, however broad the pen is
 SAMPLES_PER_PEN = 4  # samples along a line of one pen width
 _BLOB = 1.0  # pen widths around a junction where other lines spoil the width; twice that to be sure
 _UNKNOWN = 4.0  # px
@@ -65,7 +66,9 @@ class Page:
         arc -= np.repeat(arc[graph.offsets[:-1]], size)
         length = arc[graph.offsets[1:] - 1]
 
-        count = np.maximum(1, np.ceil(length / (pen / SAMPLES_PER_PEN))).astype(np.int64) + 1
+        begin, end = points[graph.offsets[:-1]], points[graph.offsets[1:] - 1]
+        least = np.where((begin == end).all(1), _RING, 1)
+        count = np.maximum(least, np.ceil(length / (pen / SAMPLES_PER_PEN))).astype(np.int64) + 1
         offsets = np.concatenate([[0], np.cumsum(count)])
         of_sample = np.repeat(np.arange(graph.branch_count), count)
         share = (np.arange(offsets[-1]) - offsets[of_sample]) / (count[of_sample] - 1)

@@ -338,3 +338,27 @@ def test_a_line_that_comes_back_to_where_it_began_has_a_length(smoothing: float,
     page = Page.of(graph, Settings(smoothing=smoothing, curve=curve))
     for stroke in build(page, walk(np.arange(4, dtype=np.int32))):
         assert np.ptp(stroke.points, axis=0).max() > 0.1
+
+
+@pytest.mark.parametrize("curve", ["polyline", "bezier"])
+@pytest.mark.parametrize("alone", [True, False])
+@pytest.mark.parametrize("pen", [2.0, 12.0, 300.0])
+def test_a_ring_smaller_than_the_pen_has_a_length(curve, alone: bool, pen: float) -> None:
+    """Alone, and as a loop that ends in the junction where it began."""
+    angle = np.linspace(0, 2 * np.pi, 13)[:, None]
+    ring = (np.hstack([np.cos(angle), np.sin(angle)]) * 1.5 + 30).astype(np.float32)
+    ring[-1] = ring[0]
+    line = np.array([ring[0], [60, 40], [90, 30]], np.float32)
+    both = [ring] if alone else [ring, line]
+    graph = PlanarGraph(
+        np.array([ring[0], [90, 30]], np.float32)[: len(both)],
+        np.concatenate(both),
+        np.cumsum([0, *map(len, both)]).astype(np.int32),
+        np.array([[0, 0], [0, 1]], np.int32)[: len(both)],
+        widths=np.full(sum(map(len, both)), pen, np.float32),
+    )
+    partner = np.array([1, 0] if alone else [0, 1, 2, 3], np.int32)
+    page = Page.of(graph, Settings(smoothing=0.3, curve=curve, min_length=0.0))
+    for stroke in build(page, walk(partner)):
+        places = stroke.points if stroke.handles is None else stroke.handles.reshape(-1, 2)
+        assert np.ptp(np.concatenate([stroke.points, places]), axis=0).max() > 0.1
