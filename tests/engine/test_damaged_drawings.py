@@ -87,8 +87,8 @@ def test_what_the_engine_makes_is_sound(settings):
 @pytest.mark.parametrize(
     ("place", "change", "says"),
     [
-        ("strokes.points", put((3, 0), np.nan), "the points of stroke 0 are not in range"),
-        ("strokes.points", put((3, 0), np.inf), "the points of stroke 0 are not in range"),
+        ("strokes.points", put((1, 0), np.nan), "the points of stroke 0 are not in range"),
+        ("strokes.points", put((1, 0), np.inf), "the points of stroke 0 are not in range"),
         ("strokes.points", lambda p: 0 * p + 9, "stroke 0 has no length: all its points are one"),
         ("strokes.widths", put(0, -1), "the widths of stroke 0 are not above zero"),
         ("strokes.opacity", put(0, 1.5), "the opacity of stroke 0"),
