@@ -56,7 +56,12 @@ def test_in_a_pipe_only_trouble_is_told(tmp_path, capsys):
     assert len(said.splitlines()) == 1
     assert trace(tmp_path / "in", "-o", tmp_path / "out2", "--quiet") == 0
     assert capsys.readouterr().err == ""
-    assert trace(tmp_path / "in" / "a.png", "-o", tmp_path / "b.svg", "--verbose") == 0
+    assert (
+        trace(
+            tmp_path / "in" / "a.png", "-o", tmp_path / "b.svg", "--verbose", "--smoothing", "0.4"
+        )
+        == 0
+    )
     said = capsys.readouterr().err.splitlines()
     assert said[0].startswith("involute: a.png: 1 stroke, 0 doubtful junctions")
     assert said[0].endswith(" -> b.svg")
