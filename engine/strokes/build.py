@@ -76,7 +76,6 @@ def _few(
     """
     keep = corner | lines.joint
     keep[lines.start] = keep[lines.stop - 1] = True
-    keep |= _turning(points, lines)
     tolerance = page.settings.tolerance
     # A change of the ink is as good a reason for a point as a bend.
     ink = np.column_stack([widths / (_WIDTH_STEP * page.pen), opacity / _OPACITY_STEP])
@@ -94,15 +93,6 @@ def _with_length(points: Array, raw: Array, lines: Lines) -> Array:
     before = np.maximum.reduceat(_away(raw, lines)[0], begin)
     gone = np.maximum.reduceat(away, begin) < np.maximum(_POINT, _SHRUNK * before)
     return np.where(gone[run][:, None], raw, points)
-
-
-def _turning(points: Array, lines: Lines) -> Array:
-    """(N,) bool: the farthest sample of each open line that comes back to where it began: with its
-    ends alone it would be two points in one place."""
-    away, run, begin = _away(points, lines)
-    closed = lines.sample[lines.start] == lines.sample[lines.stop - 1]
-    back = ~closed & (away[lines.stop - 1] < _POINT)
-    return back[run] & (away >= np.maximum.reduceat(away, begin)[run])
 
 
 def _drawn_together(points: Array, lines: Lines, kept: Array, handles: Array | None) -> Array:
