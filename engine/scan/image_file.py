@@ -58,6 +58,8 @@ def read_image(path: str | PathLike[str], page: int = 0) -> Array:
             picture = _decode(data, page, kind)
     except DamagedTiffError:
         picture = None
+    except InvoluteError as error:  # of a reader, which knows no name
+        raise InvoluteError(f"{path.name}: {error}") from None
     except (cv2.error, MemoryError) as error:
         if isinstance(error, cv2.error) and "MAX_IMAGE" not in str(error):
             picture = None

@@ -21,7 +21,7 @@ def read(data: bytes) -> Array | None:
     """The flattened picture, (H, W), (H, W, 3) or (H, W, 4), RGB; None when it is not whole.
 
     Raises:
-        InvoluteError: it was saved without one.
+        InvoluteError: it was saved without one; the name of the file is to be put before it.
     """
     try:
         return _read(memoryview(data))
@@ -41,7 +41,7 @@ def _read(data: memoryview) -> Array | None:
     layers, at = _block(data, at, ">Q" if version == 2 else ">I")
     if not _has_picture(resources):
         raise InvoluteError(
-            "The PSD holds no flattened picture; save it with 'Maximize Compatibility', or as PNG."
+            "the PSD holds no flattened picture; save it with 'Maximize Compatibility', or as PNG."
         )
     kept = needed + (channels > needed and _is_transparent(layers, version))
     (packing,) = struct.unpack(">H", data[at : at + 2])

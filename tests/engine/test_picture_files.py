@@ -342,3 +342,12 @@ def test_a_named_pipe_is_not_waited_for(tmp_path):
 def test_long_strips_of_paper_are_traced(shape):
     blank = vectorize(np.full(shape, 255, np.uint8), Settings(provider="classical"))
     assert blank.strokes == ()
+
+
+def test_a_psd_without_a_flattened_picture_is_named_and_says_how_to_save_it(tmp_path):
+    data = bytearray(FILES["psd-packed.psd"][0])
+    data[data.index(b"8BIM\x04\x21") + 16] = 0  # its flag: there is a flattened picture
+    path = tmp_path / "layers.psd"
+    path.write_bytes(data)
+    with pytest.raises(InvoluteError, match=r"layers\.psd: the PSD .* 'Maximize Compatibility'"):
+        read_image(path)
