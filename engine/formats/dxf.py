@@ -30,6 +30,9 @@ def write(drawing: Drawing, path: Path) -> None:
     with _without_time():
         document = ezdxf.new(_VERSION, units=units.MM)
         _fill(document, drawing)
+        # ezdxf would add these in the order of a set, which differs from process to process.
+        for name in sorted(document.entitydb.dxf_types_in_use()):
+            document.classes.add_class(name)
         document.saveas(path)
 
 
