@@ -8,14 +8,12 @@ every branch how probable it is that no stroke made it.
 
 from __future__ import annotations
 
-import io
 from collections.abc import Mapping
-from functools import cache
 
 import cv2
 import numpy as np
 
-from ... import weights
+from ... import perceptron, weights
 from ...arrays.sampling import sample
 from ...settings import Settings
 from ...values import Array, PlanarGraph
@@ -53,19 +51,9 @@ def remove_undrawn(graph: PlanarGraph, evidence: Evidence, settings: Settings) -
 
 def probability(rows: Array, net: Mapping[str, Array] | None = None) -> Array:
     """(B,) that no stroke made a branch, from its (B, F) features; net: other weights."""
-    net = net or _net()
-    hidden = (rows - net["mean"]) / net["spread"]
-    for layer in range(len(net) // 2 - 1):
-        hidden = hidden @ net[f"weight{layer}"] + net[f"bias{layer}"]
-        if f"weight{layer + 1}" in net:
-            hidden = np.maximum(hidden, 0)
-    return 1 / (1 + np.exp(-np.clip(hidden[:, 0], -50, 50)))
-
-
-@cache
-def _net() -> dict[str, Array]:
-    with np.load(io.BytesIO(weights.read(WEIGHTS))) as file:
-        return {name: file[name].astype(np.float64) for name in file.files}
+    net = net or perceptron.load(WEIGHTS)
+    scaled = (rows - net["mean"]) / net["spread"]
+    return perceptron.probability(perceptron.forward(scaled, net)[:, 0])
 
 
 def features(graph: PlanarGraph, evidence: Evidence) -> Array:
