@@ -181,16 +181,11 @@ def _with_corner(
     place[graph.places] = np.arange(len(graph.places))
     # Place by place, as `candidate_pairs` has them: new numbers are in another order.
     order = np.lexsort((pairs[:, 1], pairs[:, 0], place[graph.half_vertex[pairs[:, 0]]]))
-    ways = tuple(
-        tuple(
-            Alternative(
-                tuple(sorted(tuple(sorted(number[list(p)].tolist())) for p in way.pairs)),
-                way.probability,
-            )
-            for way in ways
-        )
-        for ways in routing.alternatives
-    )
+    ways = list(routing.alternatives)
+    moved = np.flatnonzero(number != np.arange(len(number)))
+    for at in place[graph.half_vertex[number[moved]]].tolist():
+        if at >= 0:
+            ways[at] = tuple(_renumbered(way, number) for way in ways[at])
     other = () if chosen else (pair,)
     return Routing(
         partner=partner.astype(np.int32),
@@ -199,3 +194,8 @@ def _with_corner(
         alternatives=(*ways, (Alternative(chosen, 0.5), Alternative(other, 0.5))),
         locked=np.append(routing.locked, True),
     )
+
+
+def _renumbered(way: Alternative, number: Array) -> Alternative:
+    pairs = sorted(tuple(sorted(number[list(pair)].tolist())) for pair in way.pairs)
+    return Alternative(tuple(pairs), way.probability)
