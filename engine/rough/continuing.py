@@ -7,7 +7,6 @@ scales, and a small network makes log-odds of them.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -22,9 +21,9 @@ _SCALES = (1.0, 2.0, 4.0)  # times the pen
 FEATURES = len(_SCALES) * len(OF_PAIRS) + 7  # of a pair
 
 
-def score(graph: PlanarGraph, pairs: Array, net: Mapping[str, Array] | None = None) -> Array:
+def score(graph: PlanarGraph, pairs: Array) -> Array:
     """(K,) float32 log-odds of joining each of the (K, 2) pairs against ending both."""
-    return log_odds(features(graph, pairs), "goes_on", net).astype(np.float32)
+    return log_odds(features(graph, pairs), "goes_on").astype(np.float32)
 
 
 def features(graph: PlanarGraph, pairs: Array) -> Array:

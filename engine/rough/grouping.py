@@ -8,16 +8,13 @@ to a third stroke and equal lengths, as hatching has them. Trained by training/r
 
 from __future__ import annotations
 
-import io
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cache
 
 import numpy as np
 
-from .. import weights
+from .. import perceptron, weights
 from ..arrays.sampling import sample
-from ..graph.clues import forward
 from ..values import Array
 from .beside import Rungs
 from .sampled import SPACING, Sampled
@@ -28,33 +25,21 @@ FEATURES = 37  # of a stretch
 _FAR = 20.0  # pens; as far as we look for a third stroke
 
 
-@cache
-def net() -> dict[str, Array]:
-    """The weights of all that rough drawings need.
-
-    Raises:
-        InvoluteError: the weights are damaged.
-        OSError: there are none.
-    """
-    with np.load(io.BytesIO(weights.read(WEIGHTS))) as file:
-        return {name: file[name].astype(np.float64) for name in file.files}
-
-
 def available() -> bool:
     """Whether the weights are there."""
     return WEIGHTS.exists()
 
 
 def probability(rows: Array, name: str, given: Mapping[str, Array] | None = None) -> Array:
-    """(K,) what a network of `net` says of rows of features, (K, F)."""
-    return 1 / (1 + np.exp(-np.clip(log_odds(rows, name, given), -50, 50)))
+    """(K,) what one of the networks in `WEIGHTS` says of rows of features, (K, F)."""
+    return perceptron.probability(log_odds(rows, name, given))
 
 
 def log_odds(rows: Array, name: str, given: Mapping[str, Array] | None = None) -> Array:
     """(K,) the same as log-odds."""
-    of = net() if given is None else given
+    of = perceptron.load(WEIGHTS) if given is None else given
     scaled = np.clip((rows - of[f"{name}_mean"]) / of[f"{name}_spread"], -4, 4)
-    return forward(scaled, of, name)[:, 0]
+    return perceptron.forward(scaled, of, f"{name}_")[:, 0]
 
 
 def features(strokes: Sampled, rungs: Rungs, ink: Array, pen: float) -> Array:

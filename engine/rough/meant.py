@@ -7,12 +7,10 @@ are, compared with those it hangs on and with the whole page, and how it lies at
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 import numpy as np
 
 from ..arrays.sampling import sample
-from ..graph.continuations import pairs_within
+from ..graph.at_vertices import AtVertices
 from ..graph.topology import join, lengths, means, select
 from ..values import Array, PlanarGraph
 from .grouping import probability
@@ -24,14 +22,12 @@ _ROUNDS = 2  # what hung on something that went is looked at again
 _LOOK = 8  # points of a branch that tell its direction
 
 
-def meant_lines(
-    graph: PlanarGraph, bundles: Bundles, pen: float, net: Mapping[str, Array] | None = None
-) -> PlanarGraph:
+def meant_lines(graph: PlanarGraph, bundles: Bundles, pen: float) -> PlanarGraph:
     """The graph without the branches that most probably mean nothing."""
     for _ in range(_ROUNDS):
         if graph.branch_count == 0:
             break
-        stays = probability(features(graph, bundles, pen), "meant", net) > _SURE
+        stays = probability(features(graph, bundles, pen), "meant") > _SURE
         if stays.all():
             break
         graph = join(select(graph, stays))
@@ -69,49 +65,19 @@ def features(graph: PlanarGraph, bundles: Bundles, pen: float) -> Array:
 
 def _at_ends(graph: PlanarGraph, length: Array, number: Array, dark: Array) -> Array:
     """(2B, E): how each half-branch lies at its vertex."""
-    vertex, degree = graph.half_vertex, graph.degrees[graph.half_vertex]
-    out = directions(graph)
-    a, b = pairs_within(np.where(degree >= 2, vertex, -1)).T
-    turn = (out[a] * out[b]).sum(1)
-    count = len(vertex)
-    straight, beside = np.full(count, -1.0), np.full(count, -1.0)
-    longest, most, darkest = np.zeros(count), np.zeros(count), np.zeros(count)
-    for one, other in ((a, b), (b, a)):
-        np.maximum.at(straight, one, -turn)
-        np.maximum.at(beside, one, turn)
-        np.maximum.at(longest, one, length[other >> 1])
-        np.maximum.at(most, one, number[other >> 1])
-        np.maximum.at(darkest, one, dark[other >> 1])
-    # How well the others run past this one: the straightest pair that it is no part of.
-    order = np.lexsort((turn, vertex[a]))
-    first = np.flatnonzero(np.diff(vertex[a][order], prepend=-1))
-    best = np.full((len(graph.vertices), 3), -1.0)
-    best[vertex[a[order[first]]]] = np.stack(
-        [-turn[order[first]], a[order[first]], b[order[first]]], 1
-    )
-    mine = (best[vertex, 1:] == np.arange(count)[:, None]).any(1)
-    past = np.where(mine, -1.0, best[vertex, 0])
+    degree = graph.degrees[graph.half_vertex]
+    there = AtVertices.of(graph, _LOOK, least=2)
     own = np.repeat(np.stack([number, dark], 1), 2, axis=0)
     return np.column_stack(
         [
             degree == 1,
             degree == 3,
             degree >= 5,
-            straight,
-            beside,
-            past,
-            np.log1p(longest),
-            np.where(degree > 1, own[:, 0] - most, 0.0),
-            np.where(degree > 1, own[:, 1] - darkest, 0.0),
+            there.straight,
+            there.beside,
+            there.past,
+            np.log1p(there.most(length)),
+            np.where(degree > 1, own[:, 0] - there.most(number), 0.0),
+            np.where(degree > 1, own[:, 1] - there.most(dark), 0.0),
         ]
     )
-
-
-def directions(graph: PlanarGraph) -> Array:
-    """(2B, 2) unit vectors in which the half-branches leave their vertices."""
-    size = np.minimum(np.diff(graph.offsets) - 1, _LOOK)
-    start, stop = graph.offsets[:-1], graph.offsets[1:] - 1
-    ahead = graph.points[start + size].astype(np.float64) - graph.points[start]
-    back = graph.points[stop - size].astype(np.float64) - graph.points[stop]
-    way = np.stack([ahead, back], 1).reshape(-1, 2)
-    return way / np.maximum(np.hypot(*way.T), 1e-9)[:, None]

@@ -11,7 +11,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from ..graph.clues import available, forward, net
+from ..graph.clues import WEIGHTS, available
+from ..perceptron import forward, load, probability
 from ..values import Alternative, Array, Pair, PlanarGraph
 
 UNSEEN = 4.0  # log-odds of going on where nothing was seen: lines of older drawings are whole
@@ -36,7 +37,7 @@ def score(graph: PlanarGraph, fixed: Mapping[int, tuple[Pair, ...]]) -> Array:
             decided[place - first] = 1.0 if pairs else -1.0
     known = np.isfinite(graph.clues).all(1)  # a cut that the user made was never looked at
     found = np.full(len(known), UNSEEN, np.float32)
-    found[known] = judged(graph.clues[known].astype(np.float64), decided[known], net())
+    found[known] = judged(graph.clues[known].astype(np.float64), decided[known], load(WEIGHTS))
     return found
 
 
@@ -48,7 +49,7 @@ def judged(clues: Array, decided: Array, net: Mapping[str, Array]) -> Array:
     """
     about = page_of(clues, decided)
     rows = np.concatenate([clues, np.tile(about, (len(clues), 1))], axis=1)
-    return forward(rows, net, "judge")[:, 0]
+    return forward(rows, net, "judge_")[:, 0]
 
 
 def page_of(clues: Array, decided: Array) -> Array:
@@ -66,7 +67,7 @@ def goes_on(log_odds: Array, bias: float) -> Array:
         bias: -1 = all of them, 0 = where that is more probable, 1 = none where the pen may have
             been lifted at all.
     """
-    lift = 1.0 / (1.0 + np.exp(np.clip(np.asarray(log_odds, np.float64), -50, 50)))
+    lift = probability(-np.asarray(log_odds))
     return (lift <= (1.0 - bias) / 2) | (lift < _NEVER)
 
 
@@ -76,9 +77,8 @@ def alternatives(pairs: Array, log_odds: Array) -> tuple[tuple[Alternative, ...]
     Args:
         pairs: (C, 2) its half-branches. log_odds: (C,) of joining them.
     """
-    join = 1.0 / (1.0 + np.exp(-np.clip(np.asarray(log_odds, np.float64), -50, 50)))
     found = []
-    for (a, b), p in zip(pairs.tolist(), join.tolist(), strict=True):
+    for (a, b), p in zip(pairs.tolist(), probability(log_odds).tolist(), strict=True):
         ways = (Alternative(((a, b),), p), Alternative((), 1.0 - p))
         found.append(ways if p > 0.5 else ways[::-1])
     return tuple(found)

@@ -8,18 +8,16 @@ every branch how probable it is that no stroke made it.
 
 from __future__ import annotations
 
-import io
 from collections.abc import Mapping
-from functools import cache
 
 import cv2
 import numpy as np
 
-from ... import weights
+from ... import perceptron, weights
 from ...arrays.sampling import sample
 from ...settings import Settings
 from ...values import Array, PlanarGraph
-from ..continuations import pairs_within
+from ..at_vertices import AtVertices
 from ..evidence import Evidence
 from ..limits import LIMITS
 from ..topology import join, lengths, means, select
@@ -53,19 +51,9 @@ def remove_undrawn(graph: PlanarGraph, evidence: Evidence, settings: Settings) -
 
 def probability(rows: Array, net: Mapping[str, Array] | None = None) -> Array:
     """(B,) that no stroke made a branch, from its (B, F) features; net: other weights."""
-    net = net or _net()
-    hidden = (rows - net["mean"]) / net["spread"]
-    for layer in range(len(net) // 2 - 1):
-        hidden = hidden @ net[f"weight{layer}"] + net[f"bias{layer}"]
-        if f"weight{layer + 1}" in net:
-            hidden = np.maximum(hidden, 0)
-    return 1 / (1 + np.exp(-np.clip(hidden[:, 0], -50, 50)))
-
-
-@cache
-def _net() -> dict[str, Array]:
-    with np.load(io.BytesIO(weights.read(WEIGHTS))) as file:
-        return {name: file[name].astype(np.float64) for name in file.files}
+    net = net or perceptron.load(WEIGHTS)
+    scaled = (rows - net["mean"]) / net["spread"]
+    return perceptron.probability(perceptron.forward(scaled, net)[:, 0])
 
 
 def features(graph: PlanarGraph, evidence: Evidence) -> Array:
@@ -103,27 +91,8 @@ def _at_ends(graph: PlanarGraph, mean: Array, length: Array, evidence: Evidence)
     """(2B, E): how each half-branch lies at its vertex, and what is seen there."""
     vertex = graph.half_vertex
     degree = graph.degrees[vertex]
-    out = _directions(graph)
-    a, b = pairs_within(np.where(degree >= 3, vertex, -1)).T
-    turn = (out[a] * out[b]).sum(1)
-    straight, beside = np.full(len(vertex), -1.0), np.full(len(vertex), -1.0)
-    for one in (a, b):
-        np.maximum.at(straight, one, -turn)
-        np.maximum.at(beside, one, turn)
-    # How well the others run past this one: the straightest pair that it is no part of.
-    order = np.lexsort((turn, vertex[a]))
-    first = np.flatnonzero(np.diff(vertex[a][order], prepend=-1))
-    best = np.full((len(graph.vertices), 3), -1.0)
-    best[vertex[a[order[first]]]] = np.stack(
-        [-turn[order[first]], a[order[first]], b[order[first]]], 1
-    )
-    mine = (best[vertex, 1:] == np.arange(len(vertex))[:, None]).any(1)
-    past = np.where(mine, -1.0, best[vertex, 0])
-    # The brightest and the longest neighbour.
-    bright, long = np.zeros(len(vertex)), np.zeros(len(vertex))
-    for one, other in ((a, b), (b, a)):
-        np.maximum.at(bright, one, mean[other >> 1])
-        np.maximum.at(long, one, length[other >> 1])
+    there = AtVertices.of(graph, _LOOK, least=3)
+    bright = there.most(mean)
     own = np.repeat(mean, 2) / np.maximum(np.where(bright > 0, bright, np.repeat(mean, 2)), 1e-3)
     assert evidence.seen_junctions is not None
     assert evidence.seen_ends is not None
@@ -135,24 +104,14 @@ def _at_ends(graph: PlanarGraph, mean: Array, length: Array, evidence: Evidence)
             degree >= 5,
             sample(evidence.seen_junctions, place),
             sample(evidence.seen_ends, place),
-            straight,
-            beside,
-            past,
+            there.straight,
+            there.beside,
+            there.past,
             own,
-            np.log1p(long),
+            np.log1p(there.most(length)),
             sample(_crowd(graph, evidence.shape), place),
         ]
     )
-
-
-def _directions(graph: PlanarGraph) -> Array:
-    """(2B, 2) unit vectors in which the half-branches leave their vertices."""
-    size = np.minimum(np.diff(graph.offsets) - 1, _LOOK)
-    start, stop = graph.offsets[:-1], graph.offsets[1:] - 1
-    ahead = graph.points[start + size].astype(np.float64) - graph.points[start]
-    back = graph.points[stop - size].astype(np.float64) - graph.points[stop]
-    way = np.stack([ahead, back], 1).reshape(-1, 2)
-    return way / np.maximum(np.hypot(*way.T), 1e-9)[:, None]
 
 
 def _crowd(graph: PlanarGraph, shape: tuple[int, ...]) -> Array:
