@@ -21,7 +21,7 @@ from ..routing import with_corners
 from ..settings import Settings
 from ..soundness import UnsoundError, check_drawing
 from ..values import Array, PlanarGraph, Routing, Stroke
-from .flatten import around, controls, outline
+from .flatten import around, controls, outline, widths_along
 from .whole_file import write_text
 
 INKSCAPE = "http://www.inkscape.org/namespaces/inkscape"
@@ -278,13 +278,6 @@ def _subpaths(data: str) -> list[tuple[Array, Array | None]]:
     return found
 
 
-def _along(stroke: Stroke, count: int) -> Array:
-    """The widths of a stroke at so many points of its outline, evenly between its own."""
-    widths = np.append(stroke.widths, stroke.widths[:1]) if stroke.closed else stroke.widths
-    at = np.linspace(0, len(widths) - 1, count)
-    return np.interp(at, np.arange(len(widths)), widths).astype(np.float32)
-
-
 def _unconnected(strokes: tuple[Stroke, ...]) -> tuple[PlanarGraph, Routing]:
     """A graph in which every stroke is one branch that meets no other."""
     lines = [outline(stroke) for stroke in strokes]
@@ -303,9 +296,7 @@ def _unconnected(strokes: tuple[Stroke, ...]) -> tuple[PlanarGraph, Routing]:
                 np.int32
             ),
             ends=ends.astype(np.int32),
-            widths=np.concatenate(
-                [_along(s, len(line)) for s, line in zip(strokes, lines, strict=True)]
-            ),
+            widths=np.concatenate([widths_along(stroke) for stroke in strokes]),
         )
     partner = np.arange(2 * graph.branch_count, dtype=np.int32)
     loop = np.flatnonzero(graph.degrees[graph.half_vertex] == 2)
