@@ -20,10 +20,10 @@ from ezdxf.lldxf import const
 from ..drawing import Drawing
 from ..ink.ink_names import ink_layers
 from ..values import Array, Stroke
+from .areas import SOLIDS
 from .flatten import controls
 
 _VERSION = "R2010"  # the oldest with hatches, true colors and lineweights that all programs read
-_SOLIDS = "Solids"
 
 
 def write(drawing: Drawing, path: Path) -> None:
@@ -60,7 +60,7 @@ def _fill(document: Document, drawing: Drawing) -> None:
     document.header["$LWDISPLAY"] = 1
     space.reset_extents((0, 0, 0), (width, height, 0))
     if drawing.fills:
-        document.layers.add(_SOLIDS)
+        document.layers.add(SOLIDS)
         for fill in drawing.fills:
             _add_area(space, [placed(ring) for ring in fill])
     for ink in ink_layers(drawing.strokes):
@@ -95,7 +95,7 @@ def _add_spline(space: Modelspace, layer: str, points: Array, stroke: Stroke, mm
 
 
 def _add_area(space: Modelspace, rings: list[Array]) -> None:
-    hatch = space.add_hatch(color=7, dxfattribs={"layer": _SOLIDS})
+    hatch = space.add_hatch(color=7, dxfattribs={"layer": SOLIDS})
     for number, ring in enumerate(rings):
         flags = const.BOUNDARY_PATH_OUTERMOST if number else const.BOUNDARY_PATH_EXTERNAL
         hatch.paths.add_polyline_path(ring.round(5).tolist(), is_closed=True, flags=flags)

@@ -18,6 +18,7 @@ from ..arrays.ragged import arc, count_up, offsets_of, owners
 from ..drawing import Drawing
 from ..ink.ink_names import InkLayer, ink_layers
 from ..values import Array, Stroke
+from .areas import area_layers
 from .flatten import outline, widths_along
 from .plot_paths import short_order
 from .whole_file import write_text
@@ -162,17 +163,10 @@ def _group(name: str, line: Array, width: float, stroke: Stroke, clock: _Clock |
 
 def _areas(drawing: Drawing, span: tuple[int, int]) -> list[Json]:
     """The layers below the strokes: solid areas, and below them the coloured regions."""
-    layers = []
-    if drawing.fills:
-        groups = [_area(fill, (0, 0, 0)) for fill in drawing.fills]
-        layers.append(_layer("Solids", groups, span))
-    if drawing.settings.regions and drawing.regions:
-        colors = drawing.region_colors
-        if colors is None or len(colors) != len(drawing.regions):
-            colors = np.full((len(drawing.regions), 3), 255, np.uint8)
-        pairs = zip(drawing.regions, colors.tolist(), strict=True)
-        layers.append(_layer("Regions", [_area(region, color) for region, color in pairs], span))
-    return layers
+    return [
+        _layer(name, [_area(rings, color) for rings, color in areas], span)
+        for name, areas in reversed(area_layers(drawing).items())
+    ]
 
 
 def _area(rings: Sequence[Array], color: Sequence[int]) -> Json:

@@ -25,12 +25,12 @@ from pypdf.generic import (
 from ..drawing import Drawing
 from ..ink.ink_names import ink_layers
 from ..values import Array, Stroke
+from .areas import SOLIDS, area_layers
 from .flatten import controls
 from .pen_shape import pen_shape
 
 _EVEN = 0.02  # share of its width by which a line may vary that is drawn as one
 _POINTS_PER_MM = 72 / 25.4
-_SOLIDS, _REGIONS = "Solids", "Regions"
 
 Content = list[tuple[str, list[str]]]  # layers from below: name, and what is drawn
 
@@ -100,14 +100,11 @@ def _set_resources(page: PageObject, tables: dict[str, dict[str, Any]]) -> None:
 def _content(drawing: Drawing, fades: dict[str, DictionaryObject]) -> Content:
     """What is on the page, layer by layer; strengths that are used go into `fades`."""
     content: Content = []
-    if drawing.settings.regions and drawing.regions:
-        colors = drawing.region_colors
-        if colors is None or len(colors) != len(drawing.regions):
-            colors = np.full((len(drawing.regions), 3), 255, np.uint8)
-        shapes = zip(colors.tolist(), drawing.regions, strict=True)
-        content.append((_REGIONS, [f"{_color(c)} rg {_rings(area)} f*" for c, area in shapes]))
-    if drawing.fills:
-        content.append((_SOLIDS, [f"0 g {_rings(area)} f*" for area in drawing.fills]))
+    for name, areas in area_layers(drawing).items():
+        # Solid blacks are in the gray space, which converts to black ink alone.
+        paints = ["0 g" if name == SOLIDS else f"{_color(color)} rg" for _, color in areas]
+        shapes = zip(paints, areas, strict=True)
+        content.append((name, [f"{paint} {_rings(area)} f*" for paint, (area, _) in shapes]))
     for ink in ink_layers(drawing.strokes):
         drawn = [f"{_color(ink.color)} rg {_color(ink.color)} RG"]
         for number in ink.numbers:

@@ -18,6 +18,7 @@ import numpy as np
 from ..drawing import Drawing
 from ..ink.ink_names import ink_layers
 from ..values import Array, Stroke
+from .areas import SOLIDS
 from .flatten import outline, widths_along
 from .whole_file import write_bytes
 
@@ -55,7 +56,7 @@ def write_sequence(name: str, frames: Iterable[tuple[int, Drawing]], path: Path)
             style = _style(styles, ink.name, ink.color)
             strokes += [(style, drawing.strokes[number]) for number in ink.numbers]
         if drawing.fills:
-            style = _style(styles, "Solids", (0, 0, 0))
+            style = _style(styles, SOLIDS, (0, 0, 0))
             strokes += [(style, _border(ring)) for fill in drawing.fills for ring in fill]
         images.append((min(frame + shift, _MOST_FRAME), strokes, drawing))
     file = _File(len(images))

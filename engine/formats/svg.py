@@ -21,10 +21,12 @@ from ..routing import with_corners
 from ..settings import Settings
 from ..soundness import UnsoundError, check_drawing
 from ..values import Array, PlanarGraph, Routing, Stroke
+from .areas import REGIONS, SOLIDS, Area, area_layers
 from .flatten import around, controls, outline, widths_along
 from .whole_file import write_text
 
 INKSCAPE = "http://www.inkscape.org/namespaces/inkscape"
+_KINDS = {SOLIDS: "fill", REGIONS: "region"}  # how files have always called these areas
 _NO_LINES = {"data-fill", "data-region", "data-outline", "data-pencil"}
 # The transform makes simple readers look at the layer closely enough to see that it is hidden.
 _HIDDEN = (
@@ -65,13 +67,8 @@ def opening(drawing: Drawing, unit: str = "", scale: float = 1.0) -> list[str]:
 def below(drawing: Drawing) -> list[str]:
     """What lies below the strokes: the coloured regions between them, and the solid areas."""
     lines = []
-    if drawing.settings.regions and drawing.regions:
-        colors = drawing.region_colors
-        if colors is None or len(colors) != len(drawing.regions):
-            colors = np.full((len(drawing.regions), 3), 255, np.uint8)
-        lines += _areas("region", drawing.regions, [tuple(color) for color in colors.tolist()])
-    if drawing.fills:
-        lines += _areas("fill", drawing.fills, [(0, 0, 0)] * len(drawing.fills))
+    for name, areas in area_layers(drawing).items():
+        lines += _areas(name, areas)
     if drawing.pencil:
         lines.append(layer("Pencil", _HIDDEN))
         lines += [_path(i, stroke, "pencil") for i, stroke in enumerate(drawing.pencil.strokes)]
@@ -141,17 +138,15 @@ def _number(text: str) -> float:
     return value
 
 
-def _areas(
-    kind: str, areas: Sequence[tuple[Array, ...]], colors: Sequence[tuple[int, int, int]]
-) -> list[str]:
-    """A group of filled paths; an area is the rings of its outline and its holes."""
+def _areas(name: str, areas: Sequence[Area]) -> list[str]:
+    """A layer of filled paths; an area is the rings of its outline and its holes."""
+    kind = _KINDS[name]
     paths = [
         f'<path data-{kind}="{i}" d="{rings(area)}" '
         f'fill="#{bytes(color).hex()}" fill-rule="evenodd"/>'
-        for i, (area, color) in enumerate(zip(areas, colors, strict=True))
+        for i, (area, color) in enumerate(areas)
     ]
-    mark = f' id="{kind}s" stroke="none"'
-    return [layer({"fill": "Solids"}.get(kind, "Regions"), mark), *paths, "</g>"]
+    return [layer(name, f' id="{kind}s" stroke="none"'), *paths, "</g>"]
 
 
 def rings(area: Sequence[Array]) -> str:

@@ -15,6 +15,7 @@ from ..ink.ink_names import ink_layers
 from ..strokes.simplify import simplify
 from ..values import Array
 from . import svg
+from .areas import SOLIDS
 from .flatten import outline
 from .plot_paths import hatched, in_short_order, joined, without_doubles
 from .whole_file import write_text
@@ -40,7 +41,7 @@ def write(drawing: Drawing, path: Path) -> None:
         paths = [np.concatenate([ring, ring[:1]]) for fill in drawing.fills for ring in fill]
         for fill in drawing.fills:
             paths += hatched(fill, _HATCH * pen)
-        lines += _layer(f"{number + 1} Solids", paths, (0, 0, 0), pen, mm)
+        lines += _layer(f"{number + 1} {SOLIDS}", paths, (0, 0, 0), pen, mm)
     write_text("\n".join([*lines, "</svg>", ""]), path)
 
 
