@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -10,7 +11,7 @@ import numpy as np
 from ...engine import InvoluteError
 from ..language import message
 from . import cels, state, writing
-from .core.hand_edits import HandEdits, hand_edits
+from .core.hand_edits import Kept, hand_edits
 from .core.stroke_arrays import ALONG, HALF, ROUTING, TRACE, column
 
 if TYPE_CHECKING:
@@ -55,11 +56,10 @@ def retrace(data: bpy.types.ID, frame: int, key: int, drawing: Drawing) -> Retra
     picture = state.picture_of(data, key)
     own = state.add(data, new, pixel_map, trace.source, picture)
     for cel, kept in zip(shown, edits.kept, strict=True):
-        _leave(cel, key, [one.index for one in kept])
+        _leave(cel, key, kept, own)
     drawn = [s for k, s in enumerate(new.strokes) if k not in edits.left_out]
     thinned = replace(new, strokes=tuple(drawn), edits=None)
     writing.write(data, there, thinned, pixel_map, own, clear=False)
-    _mark(shown, edits, own)
     state.forget(data, key)
     return Retraced(own, lost, sum(map(len, edits.kept)))
 
@@ -77,40 +77,21 @@ def _frame_of(layers: tuple[bpy.types.bpy_struct, ...], frame: int, key: int) ->
     return keys[int(np.argmax(counts))].frame_number
 
 
-def _leave(cel: object, key: int, kept: list[int]) -> None:
-    """Take away all strokes of a trace but some, which nobody owns for now: they come first among
-    those that are marked so."""
+def _leave(cel: object, key: int, kept: Sequence[Kept], own: int) -> None:
+    """Take away all strokes of a trace but some, which stand for strokes of the new one from now
+    on."""
     mine = _of(cel, key)
-    if not mine.any():
-        return
-    traces, halves = (cels.read_column(cel, name) for name in (TRACE, HALF))
-    traces[kept] = 0
-    halves = np.zeros(len(traces), np.int32) if halves is None else halves
-    halves[kept] = _KEPT - np.arange(len(kept), dtype=np.int32)
-    cels.set_column(cel, TRACE, traces)
-    cels.set_column(cel, HALF, halves)
-    gone = np.setdiff1d(np.flatnonzero(mine), kept)
-    if len(gone):
-        cel.remove_strokes(indices=gone.tolist())
-
-
-_KEPT = -1000  # marks of strokes that are kept count down from here
-
-
-def _mark(shown: tuple[object, ...], edits: HandEdits, key: int) -> None:
-    """Tell the strokes that stayed which new stroke they stand for."""
-    for cel, kept in zip(shown, edits.kept, strict=True):
-        if not kept:
-            continue
+    if kept:
         curves = cels.read(cel)
-        traces, halves = (curves.mark(name).astype(np.int32) for name in (TRACE, HALF))
-        routing = curves.mark(ROUTING).astype(np.int32)
+        marks = {name: curves.mark(name).astype(np.int32) for name in (TRACE, HALF, ROUTING)}
         along = curves.point(ALONG).astype(np.float32)
-        for number, one in enumerate(kept):
-            place = int(np.flatnonzero(halves == _KEPT - number)[0])
-            traces[place] = key if one.half else 0
-            halves[place], routing[place] = one.half, 0
-            along[curves.offsets[place] : curves.offsets[place + 1]] = one.along
-        for name, values in ((TRACE, traces), (HALF, halves), (ROUTING, routing)):
+        for one in kept:
+            marks[TRACE][one.index] = own if one.half else 0
+            marks[HALF][one.index], marks[ROUTING][one.index] = one.half, 0
+            along[curves.offsets[one.index] : curves.offsets[one.index + 1]] = one.along
+        for name, values in marks.items():
             cels.set_column(cel, name, values)
         cels.set_points(cel, ALONG, column("FLOAT", along))
+    gone = np.setdiff1d(np.flatnonzero(mine), [one.index for one in kept])
+    if len(gone):
+        cel.remove_strokes(indices=gone.tolist())

@@ -67,7 +67,7 @@ def write(
         _write_fills(*fills, REGION_LAYER, white, pixel_map, key, drawing.region_colors)
     if drawing.pencil and drawing.pencil.strokes:
         written.add(PENCIL_LAYER)
-        _write_pencil(data, frame, drawing, pixel_map, key)
+        _write_pencil(data, frame, drawing, pixel_map, key, clear)
     inks = ink_layers(drawing.strokes)
     for ink in inks:
         layer = into.layer if into else ink.name
@@ -106,7 +106,7 @@ def _keyframe(data: bpy.types.ID, name: str, frame: int, clear: bool = True) -> 
 
 
 def _write_pencil(
-    data: bpy.types.ID, frame: int, drawing: Drawing, pixel_map: PixelMap, key: int
+    data: bpy.types.ID, frame: int, drawing: Drawing, pixel_map: PixelMap, key: int, clear: bool
 ) -> None:
     """Write the pencil strokes of a rough drawing, dimmed, on a layer that is not rendered.
 
@@ -114,7 +114,7 @@ def _write_pencil(
     """
     assert drawing.pencil is not None
     is_new = PENCIL_LAYER not in data.layers
-    cel = _keyframe(data, PENCIL_LAYER, frame)
+    cel = _keyframe(data, PENCIL_LAYER, frame, clear)
     if is_new:
         layer = data.layers[PENCIL_LAYER]
         layer.opacity, layer.viewlayer_render = _DIMMED, _NOT_RENDERED

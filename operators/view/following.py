@@ -12,6 +12,9 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from ...engine.arrays.ragged import along, arc
+from ..grease_pencil.core.stroke_arrays import lengths_along
+
 if TYPE_CHECKING:
     from ...engine.values import PlanarGraph
 
@@ -62,7 +65,7 @@ def followed(graph: PlanarGraph, path: Array, radius: float) -> list[int]:
     path = resampled(np.asarray(path, float), max(_STEP * radius, 1e-6))
     if len(path) < 2:
         return []
-    lengths = _lengths(graph)
+    lengths = lengths_along(graph.points, graph.offsets)  # px along its branch, of each point
     layers = _states(graph, path, radius, lengths)
     if not all(layers):
         return []
@@ -102,20 +105,11 @@ def _next(
 
 def resampled(path: Array, step: float) -> Array:
     """(M, 2) points of a path, evenly spaced, about a step apart; no more than a few hundred."""
-    steps = np.linalg.norm(np.diff(path, axis=0), axis=1)
-    along = np.concatenate([[0.0], np.cumsum(steps)])
-    if len(path) < 2 or along[-1] <= 0:
+    whole = arc(path)[-1] if len(path) > 1 else 0.0
+    if whole <= 0:
         return path[:1]
-    count = int(np.clip(np.ceil(along[-1] / step), 1, _MOST)) + 1
-    at = np.linspace(0, along[-1], count)
-    return np.stack([np.interp(at, along, path[:, k]) for k in (0, 1)], axis=1)
-
-
-def _lengths(graph: PlanarGraph) -> Array:
-    """(P,) px: how far along its branch each point lies."""
-    steps = np.linalg.norm(np.diff(graph.points.astype(float), axis=0), axis=1)
-    along = np.concatenate([[0.0], np.cumsum(steps)])
-    return along - np.repeat(along[graph.offsets[:-1]], np.diff(graph.offsets))
+    count = int(np.clip(np.ceil(whole / step), 1, _MOST)) + 1
+    return along(path, np.linspace(0, whole, count))
 
 
 def _states(graph: PlanarGraph, path: Array, radius: float, lengths: Array) -> list[list[_State]]:

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from ....engine.arrays.ragged import along as places_along
 from .pixel_map import PixelMap
-from .stretches import corner_lengths
+from .stretches import corners, whole_length
 from .stroke_arrays import ALONG, BEZIER, HALF, TRACE, Curves
 
 if TYPE_CHECKING:
@@ -44,17 +45,13 @@ def crossed(
             stroke = owner.get((int(cel.mark(HALF)[curve]) - 1) >> 1)
             if stroke is None:
                 continue
-            lengths = corner_lengths(stroke)
-            line, along = _line(cel, curve, pixel_map, float(lengths[-1]))
-            points = stroke.points
-            if stroke.closed:
-                points = np.concatenate([points, points[:1]])
-            for at in crossings(line, along, path):
-                place = [
-                    float(np.interp(_within(at, lengths[-1]), lengths, points[:, k]))
-                    for k in (0, 1)
-                ]
-                found.append(Crossing(int(stroke.branches[0]), (place[0], place[1])))
+            whole = whole_length(stroke)
+            line, along = _line(cel, curve, pixel_map, whole)
+            at = [_within(length, whole) for length in crossings(line, along, path)]
+            if not at:
+                continue
+            for x, y in places_along(corners(stroke), np.array(at)).tolist():
+                found.append(Crossing(int(stroke.branches[0]), (x, y)))
     return found
 
 
@@ -108,9 +105,7 @@ def cut_all(drawing: Drawing, places: Sequence[Crossing]) -> Drawing:
 
 def _dense(stroke: Stroke) -> Array:
     """The polyline of a stroke with points between its own."""
-    points = stroke.points
-    if stroke.closed:
-        points = np.concatenate([points, points[:1]])
+    points = corners(stroke)
     share = np.linspace(0, 1, _PARTS, endpoint=False)[:, None, None]
     between = (1 - share) * points[:-1] + share * points[1:]
     return np.concatenate([between.reshape(-1, 2), points[-1:]])

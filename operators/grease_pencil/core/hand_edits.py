@@ -12,9 +12,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ....engine.arrays.ragged import along as places_along
 from .pixel_map import PixelMap
 from .splice import untouched_strokes
-from .stretches import corner_lengths
+from .stretches import corner_lengths, corners, whole_length
 from .stroke_arrays import ALONG, HALF, TRACE, Curves
 
 if TYPE_CHECKING:
@@ -86,9 +87,7 @@ def _kept(
     if chosen is None:
         return Kept(curve, 0, along)
     before, after = old.strokes[index], new.strokes[chosen]
-    lengths = corner_lengths(before)
-    points = _closed(before)
-    places = np.stack([np.interp(along, lengths, points[:, k]) for k in (0, 1)], 1)
+    places = places_along(corners(before), along)
     return Kept(curve, int(after.branches[0]) + 1, _lengths_on(after, places))
 
 
@@ -114,16 +113,9 @@ def _same_lines(old: Drawing, new: Drawing, changed: Sequence[int]) -> dict[int,
     return found
 
 
-def _closed(stroke: Stroke) -> Array:
-    points = stroke.points.astype(float)
-    return np.concatenate([points, points[:1]]) if stroke.closed else points
-
-
 def _places(stroke: Stroke) -> Array:
     """(n, 2) places evenly along a stroke."""
-    points, lengths = _closed(stroke), corner_lengths(stroke)
-    at = np.linspace(0, lengths[-1], _SAMPLES)
-    return np.stack([np.interp(at, lengths, points[:, k]) for k in (0, 1)], 1)
+    return places_along(corners(stroke), np.linspace(0, whole_length(stroke), _SAMPLES))
 
 
 def _away(places: Array, stroke: Stroke) -> Array:
@@ -140,7 +132,7 @@ def _lengths_on(stroke: Stroke, places: Array) -> Array:
 
 def _nearest(places: Array, stroke: Stroke) -> tuple[Array, Array]:
     """(N,) distance of places from a stroke, and (N,) how far along it the nearest place lies."""
-    points, lengths = _closed(stroke), corner_lengths(stroke)
+    points, lengths = corners(stroke), corner_lengths(stroke)
     if len(points) < 2:
         return np.hypot(*(places - points[0]).T), np.zeros(len(places))
     start, side = points[:-1], np.diff(points, axis=0)

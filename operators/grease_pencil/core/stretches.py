@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ....engine.arrays.ragged import arc
+
 if TYPE_CHECKING:
     from ....engine import Drawing, Stroke
     from ....engine.values import PlanarGraph
@@ -73,13 +75,15 @@ def whole_length(stroke: Stroke) -> float:
     return float(corner_lengths(stroke)[-1])
 
 
-def corner_lengths(stroke: Stroke) -> Array:
-    """(N,) px: how far along a stroke its points lie, and its first one again if it is closed."""
+def corners(stroke: Stroke) -> Array:
+    """(N, 2) float64: the points of a stroke, and its first one again if it is closed."""
     points = stroke.points.astype(np.float64)
-    if stroke.closed:
-        points = np.concatenate([points, points[:1]])
-    steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
-    return np.concatenate([[0.0], np.cumsum(steps)])
+    return np.concatenate([points, points[:1]]) if stroke.closed else points
+
+
+def corner_lengths(stroke: Stroke) -> Array:
+    """(N,) px: how far along a stroke its `corners` lie."""
+    return arc(corners(stroke))
 
 
 def _lengths_at(graph: PlanarGraph, stroke: Stroke, cuts: list[int]) -> list[float]:
@@ -109,9 +113,7 @@ def _place_of(graph: PlanarGraph, stroke: Stroke, lengths: Array, k: int, expect
 
 def _nearest_length(stroke: Stroke, lengths: Array, vertex: Array, expected: float) -> float:
     """Where a stroke passes a junction; of several passes, the one nearest to `expected`."""
-    points = stroke.points.astype(np.float64)
-    if stroke.closed:
-        points = np.concatenate([points, points[:1]])
+    points = corners(stroke)
     start, side = points[:-1], np.diff(points, axis=0)
     square = np.maximum((side**2).sum(1), 1e-12)
     share = np.clip(((vertex - start) * side).sum(1) / square, 0.0, 1.0)
