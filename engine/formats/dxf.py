@@ -20,6 +20,7 @@ from ezdxf.lldxf import const
 from ..drawing import Drawing
 from ..ink.ink_names import ink_layers
 from ..values import Array, Stroke
+from .flatten import controls
 
 _VERSION = "R2010"  # the oldest with hatches, true colors and lineweights that all programs read
 _SOLIDS = "Solids"
@@ -30,6 +31,9 @@ def write(drawing: Drawing, path: Path) -> None:
     with _without_time():
         document = ezdxf.new(_VERSION, units=units.MM)
         _fill(document, drawing)
+        # ezdxf would add these in the order of a set, which differs from process to process.
+        for name in sorted(document.entitydb.dxf_types_in_use()):
+            document.classes.add_class(name)
         document.saveas(path)
 
 
@@ -66,7 +70,7 @@ def _fill(document: Document, drawing: Drawing) -> None:
             if stroke.handles is None:
                 _add_polyline(space, ink.name, placed(stroke.points), stroke, mm)
             else:
-                _add_spline(space, ink.name, placed(_controls(stroke)), stroke, mm)
+                _add_spline(space, ink.name, placed(controls(stroke)), stroke, mm)
 
 
 def _add_polyline(space: Modelspace, layer: str, line: Array, stroke: Stroke, mm: float) -> None:
@@ -88,17 +92,6 @@ def _add_spline(space: Modelspace, layer: str, points: Array, stroke: Stroke, mm
     segments = (len(points) - 1) // 3
     spline.control_points = np.column_stack([points, np.zeros(len(points))]).round(5).tolist()
     spline.knots = [0.0, *np.repeat(np.arange(segments + 1.0), 3).tolist(), float(segments)]
-
-
-def _controls(stroke: Stroke) -> Array:
-    """(3 S + 1, 2): anchor, handle, handle, anchor, and so on."""
-    points, handles = stroke.points, stroke.handles
-    assert handles is not None, "only a Bezier stroke has them"
-    if stroke.closed:
-        points = np.concatenate([points, points[:1]])
-        handles = np.concatenate([handles, handles[:1]])
-    rows = np.stack([handles[:-1, 1], handles[1:, 0], points[1:]], 1).reshape(-1, 2)
-    return np.concatenate([points[:1], rows])
 
 
 def _add_area(space: Modelspace, rings: list[Array]) -> None:

@@ -25,6 +25,7 @@ from pypdf.generic import (
 from ..drawing import Drawing
 from ..ink.ink_names import ink_layers
 from ..values import Array, Stroke
+from .flatten import controls
 from .pen_shape import pen_shape
 
 _EVEN = 0.02  # share of its width by which a line may vary that is drawn as one
@@ -128,16 +129,15 @@ def _stroke(stroke: Stroke) -> str:
     mean = float(stroke.widths.mean())
     if np.ptp(stroke.widths) > _EVEN * mean:
         return f"{_rings(pen_shape(stroke))} f"
-    points, handles = stroke.points, stroke.handles
-    end = "s" if stroke.closed else "S"
-    if handles is None:
-        return f"{mean:.4g} w {_polyline(points)} {end}"
-    if stroke.closed:
-        points = np.concatenate([points, points[:1]])
-        handles = np.concatenate([handles, handles[:1]])
-    bends = np.stack([handles[:-1, 1], handles[1:, 0], points[1:]], 1).reshape(-1, 2)
-    pattern = "%.10g %.10g m" + " %.10g %.10g %.10g %.10g %.10g %.10g c" * (len(bends) // 3)
-    return f"{mean:.4g} w {_numbers(pattern, np.concatenate([points[:1], bends]))} {end}"
+    return f"{mean:.4g} w {_middle(stroke)} {'s' if stroke.closed else 'S'}"
+
+
+def _middle(stroke: Stroke) -> str:
+    if stroke.handles is None:
+        return _polyline(stroke.points)
+    points = controls(stroke)
+    pattern = "%.10g %.10g m" + " %.10g %.10g %.10g %.10g %.10g %.10g c" * (len(points) // 3)
+    return _numbers(pattern, points)
 
 
 def _rings(rings: Sequence[Array]) -> str:

@@ -21,7 +21,7 @@ from ..routing import with_corners
 from ..settings import Settings
 from ..soundness import UnsoundError, check_drawing
 from ..values import Array, PlanarGraph, Routing, Stroke
-from .flatten import outline
+from .flatten import around, controls, outline
 from .whole_file import write_text
 
 INKSCAPE = "http://www.inkscape.org/namespaces/inkscape"
@@ -160,7 +160,7 @@ def rings(area: Sequence[Array]) -> str:
 
 
 def _path(index: int, stroke: Stroke, kind: str = "stroke", said_by: Sequence[int] = ()) -> str:
-    data = polyline(_repeat_first(stroke)) if stroke.handles is None else _bezier(stroke)
+    data = polyline(around(stroke)) if stroke.handles is None else _bezier(stroke)
     opacity, widths = stroke.opacity, stroke.widths
     parts = [
         f'<path data-{kind}="{index}" d="{data}" fill="none"',
@@ -182,17 +182,8 @@ def polyline(points: Array) -> str:
 
 
 def _bezier(stroke: Stroke) -> str:
-    anchors, handles = _repeat_first(stroke), stroke.handles
-    assert handles is not None, "only a Bezier stroke has such a path"
-    if stroke.closed:
-        handles = np.concatenate([handles, handles[:1]])
-    segments = np.stack([handles[:-1, 1], handles[1:, 0], anchors[1:]], axis=1)
-    pattern = "M%.10g,%.10g C" + "%.10g,%.10g " * (3 * len(segments))
-    return _numbers(pattern, np.concatenate([anchors[:1], segments.reshape(-1, 2)]))
-
-
-def _repeat_first(stroke: Stroke) -> Array:
-    return np.concatenate([stroke.points, stroke.points[:1]]) if stroke.closed else stroke.points
+    points = controls(stroke)
+    return _numbers("M%.10g,%.10g C" + "%.10g,%.10g " * (len(points) - 1), points)
 
 
 def _numbers(pattern: str, points: Array) -> str:

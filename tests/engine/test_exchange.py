@@ -6,9 +6,11 @@ Strokes, their order, widths to 5 %, layers and frames are held against the draw
 from __future__ import annotations
 
 import json
+import os
 import re
 import shutil
 import subprocess
+import sys
 from dataclasses import replace
 from importlib.resources import files
 from itertools import pairwise
@@ -342,6 +344,18 @@ def test_the_same_drawing_gives_the_same_dxf(tmp_path):
     for name in ("a.dxf", "b.dxf"):
         everything().save(tmp_path / name)
     assert (tmp_path / "a.dxf").read_bytes() == (tmp_path / "b.dxf").read_bytes()
+
+
+def test_every_process_gives_the_same_dxf(tmp_path):
+    everything().save(tmp_path / "page.json")
+    code = "import sys, involute.engine as e; e.Drawing.load(sys.argv[1]).save(sys.argv[2])"
+    for seed in ("1", "4"):  # with these, sets of DXF's own words have unlike orders
+        subprocess.run(
+            [sys.executable, "-c", code, tmp_path / "page.json", tmp_path / f"{seed}.dxf"],
+            env={**os.environ, "PYTHONHASHSEED": seed},
+            check=True,
+        )
+    assert (tmp_path / "1.dxf").read_bytes() == (tmp_path / "4.dxf").read_bytes()
 
 
 # --- PDF -------------------------------------------------------------------------------------
