@@ -90,7 +90,7 @@ class Drawing:
         widths = graph.widths
         if widths is None:
             widths = np.full(len(graph.points), scan.pen_width, np.float32)
-        graph = _scaled(replace(graph, widths=widths), scan.scale)
+        graph = replace(graph, widths=widths).scaled(scan.scale)
         page = Page.of(graph, settings)
         drawing = cls(
             graph=graph,
@@ -202,11 +202,8 @@ class Drawing:
     @cached_property
     def _decided(self) -> dict[int, tuple[Pair, ...]]:
         """The pairs at each place that is locked."""
-        partner, found = self.routing.partner, {}
-        for place in np.flatnonzero(self.routing.locked).tolist():
-            halves = self.graph.halves_of(self.graph.places[place]).tolist()
-            found[place] = tuple((h, int(partner[h])) for h in halves if h < partner[h])
-        return found
+        locked = np.flatnonzero(self.routing.locked).tolist()
+        return {number: self.place(number).pairs for number in locked}
 
     @cached_property
     def costs(self) -> Array:
@@ -224,7 +221,7 @@ class Drawing:
         """Millimetres of paper to a pixel of the input, for formats with real sizes."""
         return 25.4 / (self.dpi or USUAL_DPI)
 
-    @property
+    @cached_property
     def doubtful(self) -> tuple[int, ...]:
         """The junctions whose answer matters and is not certain, the most costly first."""
         if not len(self.costs):
@@ -390,7 +387,7 @@ class Drawing:
 
     def ask_again(self) -> Drawing:
         """Route the junctions and corners that are not locked anew, given those that are."""
-        graph = _scaled(self.graph, 1 / self.scale)
+        graph = self.graph.scaled(1 / self.scale)
         routing = route(graph, self.settings, self._decided, rough=self.pencil is not None)
         return replace(self._with_partner(routing.partner), routing=routing)
 
@@ -401,10 +398,9 @@ class Drawing:
         Args:
             before: the same graph.
         """
-        graph = _scaled(self.graph, 1 / self.scale)
         if self.pencil:  # there, each junction is judged for itself
             return self
-        decided = self._decided
+        graph, decided = self.graph.scaled(1 / self.scale), self._decided
         score, heard = taught(graph, self.routing, before._decided, decided, self.settings)
         heard = heard[~self.routing.locked[heard]]
         if not len(heard):
@@ -460,7 +456,7 @@ class Drawing:
         return self.strokes[number]
 
     def _at_vertex(self, vertex: int) -> Junction:
-        return self._places[int(np.flatnonzero(self.graph.places == vertex)[0])]
+        return self.place(int(self.graph.place_at[vertex]))
 
     @property
     def _pairs_at_corners(self) -> Array:
@@ -479,14 +475,3 @@ class Drawing:
         strokes = sorted([*kept, *made], key=lambda s: int(s.branches.min()) >> 1)
         routing = replace(self.routing, partner=np.asarray(partner, np.int32))
         return replace(self, strokes=tuple(strokes), routing=routing, page=self._page)
-
-
-def _scaled(graph: PlanarGraph, scale: float) -> PlanarGraph:
-    """The graph in other pixels."""
-    factor = np.float32(scale)
-    return replace(
-        graph,
-        vertices=graph.vertices * factor,
-        points=graph.points * factor,
-        widths=None if graph.widths is None else graph.widths * factor,
-    )

@@ -157,6 +157,12 @@ class PlanarGraph:
         """The same graph where a function puts its vertices and points, (N, 2) -> (N, 2)."""
         return replace(self, vertices=place(self.vertices), points=place(self.points))
 
+    def scaled(self, factor: float) -> PlanarGraph:
+        """The same graph in other pixels, `factor` times as many."""
+        times = np.float32(factor)
+        widths = None if self.widths is None else self.widths * times
+        return replace(self.moved(lambda points: points * times), widths=widths)
+
     @property
     def branch_count(self) -> int:
         return len(self.offsets) - 1
@@ -201,6 +207,13 @@ class PlanarGraph:
     def places(self) -> Array:
         """(J + C,) int32: the vertices at which routing decides, junctions first, then corners."""
         return np.concatenate([self.junctions, self.corners])
+
+    @cached_property
+    def place_at(self) -> Array:
+        """(V,) int64: the number of each vertex in `places`, -1 where routing decides nothing."""
+        number = np.full(len(self.vertices), -1)
+        number[self.places] = np.arange(len(self.places))
+        return number
 
     def halves_of(self, vertex: int) -> Array:
         """The half-branches that start at a vertex, ascending."""

@@ -23,7 +23,7 @@ from .formats.svg_lines import VectorPage, read_lines
 from .graph.from_lines import graph_of_lines
 from .routing import route
 from .settings import Settings
-from .values import Array, PlanarGraph, Scan
+from .values import Array, Scan
 
 _PEN = 3.0  # working px that the middle one of all lines is made
 _LONGEST = 8192.0  # working px of a page: bounds memory and time when all lines are hairlines
@@ -82,20 +82,13 @@ def _traced(page: VectorPage, settings: Settings, trace: Trace) -> Drawing:
         cv2.fillPoly(picture, fixed, color, cv2.LINE_AA, _SUB)
     found = trace(picture, settings)
     shrink = np.float32(1 / found.scale)
-    graph = _working(found.graph, shrink)
+    graph = found.graph.scaled(1 / found.scale)
     scan = Scan(
         np.zeros((1, 1), np.float32), None, found.scale / zoom, page.size, 1.0, notes=found.notes
     )
     fills = [tuple(ring * shrink for ring in fill) for fill in found.fills]
     drawing = Drawing.from_routing(graph, found.routing, scan, settings, fills)
     return replace(drawing, dpi=page.dpi, fidelity=found.fidelity, warnings=found.warnings)
-
-
-def _working(graph: PlanarGraph, factor: np.float32) -> PlanarGraph:
-    widths = None if graph.widths is None else graph.widths * factor
-    return replace(
-        graph, vertices=graph.vertices * factor, points=graph.points * factor, widths=widths
-    )
 
 
 def _gray(color: tuple[int, int, int]) -> float:

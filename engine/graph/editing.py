@@ -177,13 +177,12 @@ def _with_corner(
 ) -> Routing:
     """The routing with one corner more, decided and locked; half-branches have new numbers."""
     pairs = np.concatenate([np.sort(number[routing.pairs], axis=1), [pair]]).astype(np.int32)
-    place = np.full(len(graph.vertices), -1)
-    place[graph.places] = np.arange(len(graph.places))
+    place = graph.place_at[graph.half_vertex]
     # Place by place, as `candidate_pairs` has them: new numbers are in another order.
-    order = np.lexsort((pairs[:, 1], pairs[:, 0], place[graph.half_vertex[pairs[:, 0]]]))
+    order = np.lexsort((pairs[:, 1], pairs[:, 0], place[pairs[:, 0]]))
     ways = list(routing.alternatives)
     moved = np.flatnonzero(number != np.arange(len(number)))
-    for at in place[graph.half_vertex[number[moved]]].tolist():
+    for at in place[number[moved]].tolist():
         if at >= 0:
             ways[at] = tuple(_renumbered(way, number) for way in ways[at])
     other = () if chosen else (pair,)

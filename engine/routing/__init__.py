@@ -101,7 +101,7 @@ def taught(
     part = Neighbourhood.of(graph, graph.junctions[centers])
     heard = np.isin(graph.places, part.near)
     rows = np.flatnonzero(heard[place_of_pairs(graph, routing.pairs)])
-    if not len(centers) or not len(rows):
+    if not len(rows):
         return routing.pair_score, np.zeros(0, np.int64)
     pairs = part.number[routing.pairs[rows]]
     old, new = (
@@ -116,9 +116,7 @@ def taught(
 
 def place_of_pairs(graph: PlanarGraph, pairs: Array) -> Array:
     """(K,) int: the number of the place at which the half-branches of each pair meet."""
-    number = np.full(len(graph.vertices), -1)
-    number[graph.places] = np.arange(len(graph.places))
-    return number[graph.half_vertex[pairs[:, 0]]]
+    return graph.place_at[graph.half_vertex[pairs[:, 0]]]
 
 
 def with_corners(routing: Routing, graph: PlanarGraph) -> Routing:

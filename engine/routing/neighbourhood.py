@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..graph.topology import select
 from ..values import Array, Pair, PlanarGraph
 from .windows import HOPS
 
@@ -36,29 +37,11 @@ class Neighbourhood:
             inside = _wider(graph, inside)
             near = inside.copy() if hop == HOPS - 1 else near
         near[centers] = False
-        branches = np.flatnonzero(inside[graph.ends].any(1))
-        vertices = np.unique(graph.ends[branches])
-        vertex = np.full(len(graph.vertices), -1)
-        vertex[vertices] = np.arange(len(vertices))
-        number = np.full(2 * graph.branch_count, -1)
-        number[np.stack([2 * branches, 2 * branches + 1], 1).reshape(-1)] = np.arange(
-            2 * len(branches)
-        )
-        points = np.concatenate(
-            [np.arange(graph.offsets[b], graph.offsets[b + 1]) for b in branches]
-            or [np.zeros(0, np.int64)]
-        )
-        sizes = np.diff(graph.offsets)[branches]
-        part = PlanarGraph(
-            graph.vertices[vertices],
-            graph.points[points],
-            np.concatenate([[0], np.cumsum(sizes)]).astype(np.int32),
-            vertex[graph.ends[branches]].astype(np.int32).reshape(-1, 2),
-            *(
-                None if values is None else values[points]
-                for values in (graph.widths, graph.strength, graph.colors)
-            ),
-        )
+        kept = inside[graph.ends].any(1)
+        part = select(graph, kept)
+        vertex, number = np.full(len(graph.vertices), -1), np.full(2 * graph.branch_count, -1)
+        vertex[graph.ends[kept]] = part.ends
+        number[np.repeat(kept, 2)] = np.arange(2 * part.branch_count)
         return Neighbourhood(part, np.flatnonzero(near), number, vertex)
 
     def fixed(
@@ -66,12 +49,11 @@ class Neighbourhood:
     ) -> dict[int, tuple[Pair, ...]]:
         """What was decided at junctions that are whole in the part, in its numbers."""
         found = {}
-        place = {int(v): k for k, v in enumerate(self.graph.junctions)}
         for junction, pairs in decided.items():
             at = int(whole.places[junction])
             here = int(self.vertex[at])
-            if here in place and self.graph.degrees[here] == whole.degrees[at]:
-                found[place[here]] = tuple(
+            if here >= 0 and self.graph.degrees[here] == whole.degrees[at] >= 3:
+                found[int(self.graph.place_at[here])] = tuple(
                     tuple(sorted(self.number[list(pair)].tolist())) for pair in pairs
                 )
         return found

@@ -56,13 +56,7 @@ def keys_at(data: bpy.types.ID, frame: int) -> list[int]:
     """The traces whose strokes are shown at a frame, those with most strokes first."""
     counts: Counter[int] = Counter()
     for _, cel in cels.cels_at(data, frame):
-        column = cels.read_column(cel, TRACE)
-        if column is None or not len(column):
-            continue
-        if (column == column[0]).all():  # as nearly always; this runs at every redraw
-            counts[int(column[0])] += len(column)
-        else:
-            counts.update(_counted(column))
+        counts.update(_strokes_by_key(cel))
     return [key for key, _ in counts.most_common() if key > 0 and _entry(data, key) is not None]
 
 
@@ -168,10 +162,9 @@ def doubtful_frames(data: bpy.types.ID) -> dict[int, int]:
     keys: dict[int, set[int]] = {}
     for layer in data.layers:
         for frame in layer.frames:
-            column = None if frame.drawing is None else cels.read_column(frame.drawing, TRACE)
-            if column is not None and column.any():
-                there = keys.setdefault(frame.frame_number, set())
-                there |= set(np.unique(column[column > 0]).tolist())
+            there = {} if frame.drawing is None else _strokes_by_key(frame.drawing)
+            if any(there):
+                keys.setdefault(frame.frame_number, set()).update(k for k in there if k > 0)
     found = {}
     for frame, some in sorted(keys.items()):
         found[frame] = 0
@@ -239,12 +232,21 @@ def adopt(data: bpy.types.ID) -> None:
     """
     wanted = set()
     for cel in cels.all_cels(data):
-        column = cels.read_column(cel, TRACE)
-        wanted |= set() if column is None else set(np.unique(column).tolist())
+        wanted |= _strokes_by_key(cel).keys()
     for key in sorted(key for key in wanted if key > 0):
         entry = _entry(data, key)
         if entry is not None and str(key) not in _traces(data):
             _writable(data)[str(key)] = entry.to_dict()
+
+
+def _strokes_by_key(cel: object) -> dict[int, int]:
+    """How many strokes of a cel there are of each trace, and of none: 0."""
+    column = cels.read_column(cel, TRACE)
+    if column is None or not len(column):
+        return {}
+    if (column == column[0]).all():  # as nearly always; this runs at every redraw
+        return {int(column[0]): len(column)}
+    return _counted(column)
 
 
 def _counted(column: np.ndarray) -> dict[int, int]:

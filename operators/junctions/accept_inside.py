@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import bpy
 import numpy as np
-from bpy.props import BoolProperty, CollectionProperty
+from bpy.props import BoolProperty
 
 from ..language import message
+from ..view.on_screen import places_on_page
 from ..view.picking import inside
-from ..view.view_state import make_current, shown_in, traced_in, view_of
+from ..view.view_state import make_current, places_of, shown_in, traced_in, view_of
 from .junction_operator import JunctionOperator
-from .path_gesture import PathGesture, on_page, path_of
+from .path_gesture import PathGesture, as_items, path_property
 
 
 class INVOLUTE_OT_accept_inside(JunctionOperator, bpy.types.Operator):
@@ -19,17 +20,12 @@ class INVOLUTE_OT_accept_inside(JunctionOperator, bpy.types.Operator):
     bl_idname = "involute.accept_inside"
     bl_label = "Accept Inside"
 
-    path: CollectionProperty(
-        type=bpy.types.OperatorMousePath,
-        name="Path",
-        description="The outline, in pixels of the scan",
-        options={"SKIP_SAVE"},
-    )
+    path: path_property("The outline, in pixels of the scan")
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Lock them, and say how many there were."""
         table = shown_in(context).table
-        there = inside(table.positions, path_of(self.path)) & ~table.locked
+        there = inside(table.positions, places_of(self.path)) & ~table.locked
         chosen = np.flatnonzero(there).tolist()
         if not chosen:
             self.report({"INFO"}, message("No open junction lies inside."))
@@ -53,10 +49,10 @@ class INVOLUTE_OT_lasso_accept(PathGesture, bpy.types.Operator):
     def drawn(self, context: bpy.types.Context, places: np.ndarray) -> set[str]:
         """Accept what is inside; of several drawings, the first that has something there."""
         for shown in traced_in(context):
-            path, _ = on_page(context, shown, places)
-            outline = np.array([item["loc"] for item in path])
+            outline = places_on_page(context, shown, places)
             if (inside(shown.table.positions, outline) & ~shown.table.locked).any():
                 make_current(context, shown, shown.view.junction)
+                path = as_items(outline)
                 return bpy.ops.involute.accept_inside("EXEC_DEFAULT", True, path=path)
         self.report({"INFO"}, message("No open junction lies inside."))
         return {"CANCELLED"}

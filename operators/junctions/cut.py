@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import bpy
 import numpy as np
-from bpy.props import CollectionProperty
 
 from ...engine import InvoluteError
 from ..grease_pencil import cels
 from ..grease_pencil.core.crossed import Crossing, crossed, cut_all
 from ..language import message
-from ..view.on_screen import halves_under, junction_of
-from ..view.view_state import Shown, make_current, shown_in, traced_in
+from ..view.on_screen import halves_under, junction_of, places_on_page
+from ..view.view_state import Shown, make_current, places_of, shown_in, traced_in
 from .junction_operator import JunctionOperator
-from .path_gesture import PathGesture, on_page, path_of
+from .path_gesture import PathGesture, as_items, path_property
 
 _CLICK = 4.0  # px of the screen; what is shorter is no swipe
 
@@ -24,17 +23,12 @@ class INVOLUTE_OT_cut(JunctionOperator, bpy.types.Operator):
     bl_idname = "involute.cut"
     bl_label = "Cut Strokes"
 
-    path: CollectionProperty(
-        type=bpy.types.OperatorMousePath,
-        name="Path",
-        description="Where the cut runs, in pixels of the scan",
-        options={"SKIP_SAVE"},
-    )
+    path: path_property("Where the cut runs, in pixels of the scan")
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Cut whatever the path crosses."""
         shown = shown_in(context)
-        places = crossings_of(shown, path_of(self.path))
+        places = crossings_of(shown, places_of(self.path))
         if not places:
             self.report({"INFO"}, message("The swipe crosses no stroke."))
             return {"CANCELLED"}
@@ -52,14 +46,14 @@ class INVOLUTE_OT_swipe_cut(PathGesture, bpy.types.Operator):
         if np.ptp(places, axis=0).max() <= _CLICK * context.preferences.system.ui_scale:
             return self._separate(context, tuple(places[0]))
         for shown in traced_in(context):
-            path, _ = on_page(context, shown, places)
+            path = places_on_page(context, shown, places)
             try:
-                found = crossings_of(shown, np.array([item["loc"] for item in path]))
+                found = crossings_of(shown, path)
             except InvoluteError:
                 continue
             if found:
                 make_current(context, shown, -1)
-                return bpy.ops.involute.cut("EXEC_DEFAULT", True, path=path)
+                return bpy.ops.involute.cut("EXEC_DEFAULT", True, path=as_items(path))
         self.report({"INFO"}, message("The swipe crosses no stroke."))
         return {"CANCELLED"}
 

@@ -7,10 +7,17 @@ import numpy as np
 
 from ..language import message
 from ..view.following import followed
-from ..view.on_screen import end_under, halves_under, junction_of, line_under
+from ..view.on_screen import (
+    end_under,
+    halves_under,
+    junction_of,
+    line_under,
+    places_on_page,
+    radius_on_page,
+)
 from ..view.picking import nearest_pair
 from ..view.view_state import make_current
-from .path_gesture import PathGesture, on_page
+from .path_gesture import PathGesture, as_items
 
 
 class INVOLUTE_OT_drag_join(PathGesture, bpy.types.Operator):
@@ -34,9 +41,10 @@ class INVOLUTE_OT_drag_join(PathGesture, bpy.types.Operator):
         shown = line_under(context, tuple(places[0]))
         if shown is not None:
             make_current(context, shown, -1)
-            path, radius = on_page(context, shown, places)
-            line = np.array([item["loc"] for item in path])
+            line = places_on_page(context, shown, places)
+            radius = radius_on_page(context, shown, places)
             if len(followed(shown.trace.drawing.graph, line, radius)) >= 2:
+                path = as_items(line)
                 return bpy.ops.involute.route_along("EXEC_DEFAULT", True, path=path, radius=radius)
         ends = [end_under(context, tuple(place)) for place in (places[0], places[-1])]
         if all(ends) and ends[0][1] != ends[1][1] and ends[0][0].object == ends[1][0].object:

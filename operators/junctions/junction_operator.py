@@ -10,10 +10,25 @@ import bpy
 from ...engine import InvoluteError
 from ..grease_pencil.routing_change import change_routing
 from ..language import message
-from ..view.view_state import redraw, select, shown_in
+from ..view.view_state import Shown, redraw, select, shown_in
 
 if TYPE_CHECKING:
     from ...engine import Drawing
+
+
+def change_shown(
+    context: bpy.types.Context, shown: Shown, how: Callable[[Drawing], Drawing]
+) -> None:
+    """Change a drawing, its strokes and its state; who looks at it goes on looking at it.
+
+    Raises:
+        InvoluteError: the change can't be made; nothing was changed.
+    """
+    trace = change_routing(shown.object.data, shown.frame, shown.trace.key, how)
+    if shown.view.key == shown.trace.key:
+        shown.view.key = trace.key
+    shown.view.preview = -1
+    redraw(context)
 
 
 class JunctionOperator:
@@ -35,16 +50,11 @@ class JunctionOperator:
 
     def change(self, context: bpy.types.Context, how: Callable[[Drawing], Drawing]) -> set[str]:
         """Change the drawing, its strokes and its state; report what goes wrong."""
-        shown = shown_in(context)
         try:
-            trace = change_routing(shown.object.data, shown.frame, shown.trace.key, how)
+            change_shown(context, shown_in(context), how)
         except InvoluteError as problem:
             self.report({"ERROR"}, message(problem))
             return {"CANCELLED"}
-        if shown.view.key == shown.trace.key:
-            shown.view.key = trace.key
-        shown.view.preview = -1
-        redraw(context)
         return {"FINISHED"}
 
     def apply_alternative(

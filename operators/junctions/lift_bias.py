@@ -7,10 +7,9 @@ from bpy.props import FloatProperty
 
 from ...engine import InvoluteError
 from ...engine.settings import ABOUT
-from ..grease_pencil.routing_change import change_routing
 from ..language import label, message
-from ..view.view_state import redraw, shown_in
-from .junction_operator import JunctionOperator
+from ..view.view_state import shown_in
+from .junction_operator import JunctionOperator, change_shown
 
 _ABOUT = ABOUT["corners"]
 
@@ -57,11 +56,7 @@ def _set(obj: bpy.types.Object, bias: float) -> None:
     try:
         shown = shown_in(context, obj)
         if shown is not None and shown.has_corners:
-            frame, key = shown.frame, shown.trace.key
-            trace = change_routing(obj.data, frame, key, lambda d: d.with_corners(round(bias, 4)))
-            if shown.view.key == key:
-                shown.view.key = trace.key
-            redraw(context)
+            change_shown(context, shown, lambda d: d.with_corners(round(bias, 4)))
     except InvoluteError as problem:
         _say(context, message(problem))
 

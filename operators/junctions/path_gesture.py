@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import bpy
 import numpy as np
+from bpy.props import CollectionProperty
 
-from ..view.on_screen import places_on_page, radius_on_page
-from ..view.view_state import Shown, redraw, traced_in, view_of
+from ..view.view_state import places_of, redraw, traced_in, view_of
 from .junction_operator import JunctionOperator
 
 Array = np.ndarray
@@ -53,7 +53,7 @@ class PathGesture(JunctionOperator):
         if event.type != "LEFTMOUSE" or event.value != "RELEASE":
             return {"RUNNING_MODAL"}
         self._add(context, mouse)
-        places = view_of(context).trail_places
+        places = places_of(view_of(context).trail)
         self._leave(context)
         return self.drawn(context, places)
 
@@ -70,15 +70,16 @@ class PathGesture(JunctionOperator):
         redraw(context)
 
 
-def on_page(context: bpy.types.Context, shown: Shown, places: Array) -> tuple[list[dict], float]:
-    """A path as operators take it, px of the drawing, and how far lines may be away from it."""
-    path = places_on_page(context, shown, places)
-    items = [{"name": "", "loc": (float(x), float(y)), "time": 0.0} for x, y in path]
-    return items, radius_on_page(context, shown, places)
+def path_property(description: str) -> object:
+    """The property `path` of an operator that acts along one, px of the drawing."""
+    return CollectionProperty(
+        type=bpy.types.OperatorMousePath,
+        name="Path",
+        description=description,
+        options={"SKIP_SAVE"},
+    )
 
 
-def path_of(collection: bpy.types.bpy_prop_collection) -> Array:
-    """(N, 2) float64 of such a path."""
-    places = np.zeros(2 * len(collection), np.float32)
-    collection.foreach_get("loc", places)
-    return places.reshape(-1, 2).astype(np.float64)
+def as_items(path: Array) -> list[dict[str, object]]:
+    """A path (N, 2) as operators take it; `places_of` gives it back."""
+    return [{"name": "", "loc": (float(x), float(y)), "time": 0.0} for x, y in path]

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import bpy
-from bpy.props import CollectionProperty, FloatProperty
+from bpy.props import FloatProperty
 
 from ..language import message
 from ..view.following import followed
-from ..view.view_state import shown_in
+from ..view.view_state import places_of, shown_in
 from .junction_operator import JunctionOperator
-from .path_gesture import path_of
+from .path_gesture import path_property
 
 
 class INVOLUTE_OT_route_along(JunctionOperator, bpy.types.Operator):
@@ -18,12 +18,7 @@ class INVOLUTE_OT_route_along(JunctionOperator, bpy.types.Operator):
     bl_idname = "involute.route_along"
     bl_label = "Route Along Path"
 
-    path: CollectionProperty(
-        type=bpy.types.OperatorMousePath,
-        name="Path",
-        description="Where the stroke is to run, in pixels of the scan",
-        options={"SKIP_SAVE"},
-    )
+    path: path_property("Where the stroke is to run, in pixels of the scan")
     radius: FloatProperty(
         name="Radius",
         description="How far lines may lie from the path, in pixels of the scan",
@@ -34,7 +29,7 @@ class INVOLUTE_OT_route_along(JunctionOperator, bpy.types.Operator):
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Find the lines that the path follows, and join them to one stroke."""
         drawing = shown_in(context).trace.drawing
-        halves = followed(drawing.graph, path_of(self.path), self.radius)
+        halves = followed(drawing.graph, places_of(self.path), self.radius)
         if len(halves) < 2:
             said = message("Draw along a line, over at least one junction.")
             self.report({"INFO"}, said)

@@ -35,7 +35,9 @@ class INVOLUTE_PG_view(bpy.types.PropertyGroup):
         name="Preview", description="The alternative that is shown but not applied", default=-1
     )
     choosing: BoolProperty(name="Choosing", description="The cards of the alternatives are shown")
-    trail: CollectionProperty(type=bpy.types.OperatorMousePath, options={"HIDDEN"})
+    trail: CollectionProperty(  # where the mouse has drawn so far, px of the region
+        type=bpy.types.OperatorMousePath, options={"HIDDEN"}
+    )
     show_overlay: BoolProperty(
         name="Junction Overlay",
         description="Show junctions in the viewport, colored by doubt",
@@ -86,13 +88,6 @@ class INVOLUTE_PG_view(bpy.types.PropertyGroup):
         ],
     )
     list_page: IntProperty(name="Page", description="Page of the list", default=1, min=1)
-
-    @property
-    def trail_places(self) -> np.ndarray:
-        """(N, 2) where the mouse has drawn so far, px of the region."""
-        places = np.zeros(2 * len(self.trail), np.float32)
-        self.trail.foreach_get("loc", places)
-        return places.reshape(-1, 2)
 
 
 @dataclass(frozen=True, eq=False)
@@ -161,6 +156,13 @@ def traced_in(context: bpy.types.Context) -> Iterator[Shown]:
             continue
         if shown is not None and len(shown.table):
             yield shown
+
+
+def places_of(path: bpy.types.bpy_prop_collection) -> np.ndarray:
+    """(N, 2) float64: the places of a path, whether drawn so far or given to an operator."""
+    places = np.zeros(2 * len(path), np.float32)
+    path.foreach_get("loc", places)
+    return places.reshape(-1, 2).astype(np.float64)
 
 
 def view_of(context: bpy.types.Context) -> INVOLUTE_PG_view:

@@ -14,7 +14,7 @@ import numpy as np
 from gpu_extras.batch import batch_for_shader
 
 from ...operators.view.on_screen import places_on_screen
-from ...operators.view.view_state import Shown, traced_in, view_of
+from ...operators.view.view_state import Shown, places_of, traced_in, view_of
 from ..panels.preferences import preferences_of
 from . import cards
 from .colors import Color
@@ -54,7 +54,7 @@ def draw_labels() -> None:
     context = bpy.context
     if not _is_on(context) or context.region_data is None:
         return
-    trail = view_of(context).trail_places
+    trail = places_of(view_of(context).trail)
     if len(trail) > 1:
         cards.draw_trail(trail)
     shown = _seen.pop(context.region.as_pointer(), None)
