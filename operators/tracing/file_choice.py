@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import bpy
@@ -10,6 +10,13 @@ from bpy.props import CollectionProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper
 
 from ...engine.formats.picture_kinds import SUFFIXES
+
+TRACED = (*SUFFIXES, ".svg")  # an SVG's lines are taken as they are and routed anew
+
+
+def files_shown(suffixes: Sequence[str]) -> object:
+    """The property that tells Blender's file browser which files to show."""
+    return StringProperty(default=";".join(f"*{suffix}" for suffix in suffixes), options={"HIDDEN"})
 
 
 class ChosenFiles:
@@ -32,9 +39,7 @@ class FileChoice(ChosenFiles, ImportHelper):
     bl_options = {"REGISTER"}  # the trace that they start is the step to undo
 
     filename_ext = ""
-    filter_glob: StringProperty(
-        default=";".join(f"*{suffix}" for suffix in SUFFIXES), options={"HIDDEN"}
-    )
+    filter_glob: files_shown(TRACED)
 
     @property
     def folder(self) -> str:

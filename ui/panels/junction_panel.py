@@ -71,7 +71,9 @@ class INVOLUTE_PT_junctions(_Sidebar, bpy.types.Panel):
         row.prop(shown.view, "certainty", text="Above", slider=True)
         sure = shown.table.at_least(certainty / 100)
         said = label("Accept {count}", count=int(sure.sum()))
-        button = row.operator(INVOLUTE_OT_accept.bl_idname, text=said, translate=False)
+        field = row.row(align=True)
+        field.enabled = bool(sure.any())
+        button = field.operator(INVOLUTE_OT_accept.bl_idname, text=said, translate=False)
         button.probability = certainty
         column.operator(INVOLUTE_OT_ask_again.bl_idname, icon="FILE_REFRESH")
         _frames(self.layout, shown)
