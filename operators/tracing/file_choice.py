@@ -33,7 +33,21 @@ class ChosenFiles:
         return [file.name for file in self.files if file.name]
 
 
-class FileChoice(ChosenFiles, ImportHelper):
+class Handing:
+    """Mixin for operators that find pictures and hand them to the operator that traces."""
+
+    def hand_to(self, operator: Callable[..., set[str]], **options: object) -> set[str]:
+        """Run another operator, in the background where there is a window; pass on its report."""
+        way = "EXEC_DEFAULT" if bpy.app.background else "INVOKE_DEFAULT"
+        try:
+            result = operator(way, **options)
+        except RuntimeError as problem:
+            self.report({"ERROR"}, str(problem).strip().removeprefix("Error: "))
+            return {"CANCELLED"}
+        return {"CANCELLED"} if result == {"CANCELLED"} else {"FINISHED"}
+
+
+class FileChoice(Handing, ChosenFiles, ImportHelper):
     """Mixin for operators that let the user choose pictures and hand them to another operator."""
 
     bl_options = {"REGISTER"}  # the trace that they start is the step to undo
@@ -45,13 +59,3 @@ class FileChoice(ChosenFiles, ImportHelper):
     def folder(self) -> str:
         """The folder that was chosen."""
         return self.directory or str(Path(self.filepath).parent)
-
-    def hand_to(self, operator: Callable[..., set[str]], **options: object) -> set[str]:
-        """Run another operator, in the background where there is a window; pass on its report."""
-        way = "EXEC_DEFAULT" if bpy.app.background else "INVOKE_DEFAULT"
-        try:
-            result = operator(way, **options)
-        except RuntimeError as problem:
-            self.report({"ERROR"}, str(problem).strip().removeprefix("Error: "))
-            return {"CANCELLED"}
-        return {"CANCELLED"} if result == {"CANCELLED"} else {"FINISHED"}

@@ -99,6 +99,9 @@ class INVOLUTE_OT_trace(JobOperator, ChosenFiles, PlacingOptions, TraceOptions, 
             return {"CANCELLED"}
         for result in failed:
             self.report({"WARNING"}, f"{result.source.name}: {message(result.problem)}")
+        for result in done:
+            for sentence in result.drawing.warnings:
+                self.report({"WARNING"}, f"{result.source.name}: {message(sentence)}")
         self._report_counts([result.drawing for result in done])
         return {"FINISHED"}
 

@@ -307,6 +307,9 @@ def test_doubtful_keyframes_are_counted_and_found(bpy, part):
         assert bpy.ops.involute.doubtful_frame(direction="NEXT") == {"FINISHED"}
         seen.append(bpy.context.scene.frame_current)
     assert seen == [5, 9, 5]
+    assert bpy.ops.involute.go_to_frame(frame=9) == {"FINISHED"}
+    assert bpy.context.scene.frame_current == 9
+    assert bpy.ops.involute.go_to_frame(frame=5) == {"FINISHED"}
     traces[str(state.keys_at(obj.data, 9)[0])]["doubtful"] = 0
     assert bpy.ops.involute.doubtful_frame(direction="PREVIOUS") == {"CANCELLED"}
     bpy.ops.involute.accept(probability=0)  # what is decided is no doubt any more

@@ -328,3 +328,17 @@ def test_without_a_window_each_page_is_told(bpy, scan, tmp_path, capfd, monkeypa
     assert len(said) == 2
     assert said[0].startswith("involute: page: 2 strokes, 0 doubtful junctions, ")
     assert said[1].startswith("involute: missing: There is no file ")
+
+
+def test_a_copied_file_is_traced_from_the_clipboard(bpy, part, scan, tmp_path):
+    """What is copied in a file manager: addresses or paths; without a window there is no more."""
+    paste = part("operators.tracing.paste")
+    other = page(part, tmp_path / "with space.png")
+    text = f"{scan}\n{other.as_uri()}\n{tmp_path / 'missing.png'}\nsome words\n"
+    assert paste.copied_files(text) == (str(tmp_path), ["page.png", "with space.png"])
+    with pytest.raises(part("engine").InvoluteError, match="sees no picture"):
+        paste.copied_files("some words")
+    with pytest.raises(RuntimeError, match="sees no picture"):
+        bpy.ops.involute.paste()
+    assert paste.pasted(bpy.context) is None
+    assert {area.type for area in bpy.context.window.screen.areas} & {"VIEW_3D"}

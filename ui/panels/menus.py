@@ -11,6 +11,7 @@ from ...operators.sequences.trace_frames import (
 )
 from ...operators.tracing.file_choice import TRACED
 from ...operators.tracing.import_scan import INVOLUTE_OT_import_scan
+from ...operators.tracing.paste import INVOLUTE_OT_paste
 from ...operators.tracing.trace import INVOLUTE_OT_trace, is_image_empty
 
 
@@ -44,6 +45,9 @@ def _in_add(self: bpy.types.Menu, context: bpy.types.Context) -> None:
     )
     self.layout.operator(
         INVOLUTE_OT_import_sequence.bl_idname, text="Drawing Sequence...", icon="RENDER_ANIMATION"
+    )
+    self.layout.operator(
+        INVOLUTE_OT_paste.bl_idname, text="Drawing from Clipboard", icon="PASTEDOWN"
     )
 
 

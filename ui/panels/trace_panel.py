@@ -16,6 +16,7 @@ from ...operators.sequences.trace_frames import (
 )
 from ...operators.tracing.background import INVOLUTE_OT_cancel, stage_of
 from ...operators.tracing.import_scan import INVOLUTE_OT_import_scan
+from ...operators.tracing.paste import INVOLUTE_OT_paste
 from ...operators.tracing.scan_behind import scan_of
 from ...operators.tracing.settings_layout import draw_placing, draw_settings
 from ...operators.tracing.trace import INVOLUTE_OT_trace, is_image_empty
@@ -76,7 +77,9 @@ def _what_to_trace(
     elif is_image_empty(active):
         said = label("Trace {name}", name=active.name)
         _button(column, INVOLUTE_OT_trace, settings, said, "GREASEPENCIL")
-    _button(column, INVOLUTE_OT_import_scan, settings, "Trace Files...", "FILE_FOLDER")
+    row = column.row(align=True)
+    _button(row, INVOLUTE_OT_import_scan, settings, "Trace Files...", "FILE_FOLDER")
+    row.operator(INVOLUTE_OT_paste.bl_idname, text="", icon="PASTEDOWN")
     said = "Trace Sequence..."
     _button(column, INVOLUTE_OT_import_sequence, settings, said, "RENDER_ANIMATION")
 
@@ -122,6 +125,9 @@ class INVOLUTE_PT_summary(bpy.types.Panel):
         )
         for text in (drawn, found):
             column.label(text=text, translate=False)
+        for icon, sentences in (("ERROR", drawing.warnings), ("INFO", drawing.notes)):
+            for sentence in sentences:
+                draw_sentence(self.layout, message(sentence), icon)
         row = self.layout.row(align=True)
         row.operator(INVOLUTE_OT_trace_again.bl_idname, icon="FILE_REFRESH")
         row.operator(INVOLUTE_OT_take_settings.bl_idname, text="", icon="EYEDROPPER")
