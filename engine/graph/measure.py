@@ -14,7 +14,10 @@ from .limits import LIMITS
 from .topology import lengths
 
 _STEP = 0.5  # px between the samples across a line
-_DOT = 1.0  # px; a shorter branch is a dot, as `skeleton_graph` makes them
+_SHORT = 1.0  # px; a shorter branch is a dot, as `skeleton_graph` makes them ...
+# ... and so is, in pen widths, one that hangs on nothing. Of 216 dots of 1 to 2.6 pens, 8 of 10
+# came out 18 to 23 % too narrow as the network measures them; 6 % as the ink does.
+_DOT = 0.5
 
 
 def measure(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> PlanarGraph:
@@ -29,8 +32,7 @@ def measure(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> Plana
     if maps.half_width is not None:
         widths = 2 * sample(maps.half_width, graph.points)
         # Of a dot the network sees half; nothing where another provider has seen the line.
-        dot = np.repeat(lengths(graph) < _DOT, np.diff(graph.offsets))
-        unknown = np.isnan(widths) | dot
+        unknown = np.isnan(widths) | np.repeat(_dots(graph, scan), np.diff(graph.offsets))
         if unknown.any():
             widths = np.where(unknown, _widths(graph, scan), widths)
     else:
@@ -44,6 +46,14 @@ def measure(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> Plana
     return replace(
         graph, widths=widths.astype(np.float32), strength=strength.astype(np.float32), colors=colors
     )
+
+
+def _dots(graph: PlanarGraph, scan: Scan) -> Array:
+    """(B,) bool: which branches are dots of the pen."""
+    length = lengths(graph)
+    degree = np.bincount(graph.ends.ravel(), minlength=len(graph.vertices))
+    alone = (degree[graph.ends] == 1).all(1)
+    return (length < _SHORT) | (alone & (length < _DOT * scan.pen_width))
 
 
 def _widths(graph: PlanarGraph, scan: Scan) -> Array:
