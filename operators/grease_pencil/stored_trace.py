@@ -103,12 +103,14 @@ def doubtful_of(entry: Any) -> int:
 
 
 def picture_of(entry: Any) -> Picture:
-    """The picture that it was traced from, as far as somebody noted it."""
-    values = {name: entry[name] for name in ("path", "page", "image") if name in entry}
+    """The picture that it was traced from, as far as somebody noted it.
+
+    What is damaged of that is unknown: the junctions don't hang on it.
+    """
     kinds = {"path": str, "page": int, "image": str}
-    if any(not isinstance(value, kinds[name]) for name, value in values.items()):
-        raise TypeError("picture")
-    return Picture(**values)
+    noted = {name: entry.get(name) for name in kinds}
+    sound = all(isinstance(v, kinds[name]) for name, v in noted.items() if v is not None)
+    return Picture(**{n: v for n, v in noted.items() if v is not None}) if sound else Picture()
 
 
 def pixel_map_of(entry: Any) -> PixelMap:
@@ -202,7 +204,7 @@ def rerouted(
     base = base_of(entry)
     routing = change.packed(base, drawing, differs=False)
     stamp = _hash(_text(entry, "base").encode() + routing)
-    earlier = dict(entry["earlier"].items()) if "earlier" in entry else {}
+    earlier = _earlier(entry)
     for known, one in ((stamp_before, before), (stamp, drawing)):
         earlier.pop(known, None)
         earlier[known] = change.packed(base, one, differs=True)
@@ -210,7 +212,8 @@ def rerouted(
     changed |= picture_of(entry).as_entry() | {"doubtful": len(drawing.doubtful)}
     changed |= {"routing": routing, "stamp": stamp, "placement": pixel_map.as_list()}
     changed["earlier"] = dict(list(earlier.items())[-_MAX_EARLIER:])
-    changed["unmarked"] = _text(entry, "unmarked") if "unmarked" in entry else stamp_of(entry)
+    unmarked = entry.get("unmarked")
+    changed["unmarked"] = unmarked if isinstance(unmarked, str) else stamp_of(entry)
     remember(stamp, drawing)
     return changed, stamp
 
@@ -221,6 +224,14 @@ def remember(stamp: str, drawing: Drawing) -> None:
     _decoded.move_to_end(stamp)
     while len(_decoded) > _MAX_DECODED:
         _decoded.popitem(last=False)
+
+
+def _earlier(entry: Any) -> dict[str, bytes]:
+    """The routings that undo may bring back, by their stamps; what is damaged of them is none."""
+    known = entry.get("earlier")
+    if not hasattr(known, "items"):
+        return {}
+    return {stamp: told for stamp, told in known.items() if isinstance(told, bytes)}
 
 
 def _hash(content: bytes) -> str:
