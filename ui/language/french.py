@@ -156,6 +156,10 @@ TEXTS = {
     "Don't trace what lies beyond the sheet in a photograph: cloth, a desk, a finger": (
         "Ne pas vectoriser ce qui dépasse de la feuille sur une photo : tissu, table, doigt"
     ),
+    "Straighten Sheet": "Redresser la feuille",
+    "Take the perspective out of a photographed sheet, as seen from straight above": (
+        "Supprimer la perspective d'une feuille photographiée, comme vue d'en haut"
+    ),
     "Lines wider than this, in pixels of the picture, are solid areas; 0 finds out from the pen": (
         "Les lignes plus larges, en pixels de l'image, sont des aplats ; 0 le déduit de la plume"
     ),

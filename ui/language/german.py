@@ -166,6 +166,10 @@ TEXTS = {
     "Don't trace what lies beyond the sheet in a photograph: cloth, a desk, a finger": (
         "Was auf einem Foto neben dem Blatt liegt, nicht nachziehen: Stoff, Tisch, ein Finger"
     ),
+    "Straighten Sheet": "Blatt entzerren",
+    "Take the perspective out of a photographed sheet, as seen from straight above": (
+        "Ein fotografiertes Blatt entzerren, als sähe man gerade von oben darauf"
+    ),
     "Lines wider than this, in pixels of the picture, are solid areas; 0 finds out from the pen": (
         "Linien, die breiter sind (in Bildpunkten), sind Flächen; 0 ermittelt es aus der Feder"
     ),

@@ -155,6 +155,10 @@ TEXTS = {
     "Don't trace what lies beyond the sheet in a photograph: cloth, a desk, a finger": (
         "写真で紙の外に写っているもの (布、机、指など) をトレースしません"
     ),
+    "Straighten Sheet": "用紙の歪みを補正",
+    "Take the perspective out of a photographed sheet, as seen from straight above": (
+        "写真に撮った用紙の遠近の歪みを除き、真上から見たようにします"
+    ),
     "Lines wider than this, in pixels of the picture, are solid areas; 0 finds out from the pen": (
         "これより太い線 (画像のピクセル) はベタとみなします。0 ならペンから判断します"
     ),
