@@ -758,6 +758,12 @@ TEXTS = {
     "What lies beyond the sheet was left out: {0} of the picture.": (
         "Ce qui dépasse de la feuille a été omis : {0} de l'image."
     ),
+    "The sheet was not straightened: its four corners are not sure.": (
+        "La feuille n'a pas été redressée : ses quatre coins ne sont pas sûrs."
+    ),
+    "The sheet was straightened: its corners were {0}° askew.": (
+        "La feuille a été redressée : ses coins étaient de travers de {0}°."
+    ),
     "Printed rules were left out.": "Les lignes imprimées ont été omises.",
     "Left out as no part of the drawing: {0}.": "Omis, car ne fait pas partie du dessin : {0}.",
     "dark borders of the scan": "bords sombres du scan",

@@ -795,6 +795,12 @@ TEXTS = {
     "What lies beyond the sheet was left out: {0} of the picture.": (
         "Was außerhalb des Blattes liegt, wurde weggelassen: {0} des Bildes."
     ),
+    "The sheet was not straightened: its four corners are not sure.": (
+        "Das Blatt wurde nicht entzerrt: seine vier Ecken sind nicht sicher."
+    ),
+    "The sheet was straightened: its corners were {0}° askew.": (
+        "Das Blatt wurde entzerrt: seine Ecken waren um {0}° schief."
+    ),
     "Printed rules were left out.": "Gedruckte Hilfslinien wurden weggelassen.",
     "Left out as no part of the drawing: {0}.": "Als nicht zur Zeichnung gehörig weggelassen: {0}.",
     "dark borders of the scan": "dunkle Ränder des Scans",

@@ -723,6 +723,12 @@ TEXTS = {
     "What lies beyond the sheet was left out: {0} of the picture.": (
         "紙の外にあるものを除きました: 画像の {0}。"
     ),
+    "The sheet was not straightened: its four corners are not sure.": (
+        "用紙を補正しませんでした。四隅がはっきりしません。"
+    ),
+    "The sheet was straightened: its corners were {0}° askew.": (
+        "用紙の歪みを補正しました。角のずれは {0}° でした。"
+    ),
     "Printed rules were left out.": "印刷された罫線を除きました。",
     "Left out as no part of the drawing: {0}.": ("描画の一部ではないため除きました: {0}。"),
     "dark borders of the scan": "スキャンの暗い縁",
