@@ -190,13 +190,13 @@ def shown_in(context: bpy.types.Context, obj: bpy.types.Object | None = None) ->
 def looked_at(context: bpy.types.Context) -> bpy.types.Object | None:
     """The object that is worked on: the active one, or the drawing that was looked at last.
 
-    A click beside the lines makes whatever lies behind them the active object; that must not take
-    the drawing out of the artist's hands.
+    A click beside the lines makes whatever lies behind them the active object, and in Draw Mode
+    the one that is drawn on stays it; neither must take the drawing out of the artist's hands.
     """
     active, key = context.active_object, view_of(context).key
-    if not key or cels.is_grease_pencil(active):
-        return active
     frame = context.scene.frame_current
+    if not key or (cels.is_grease_pencil(active) and state.keys_at(active.data, frame)):
+        return active
     for obj in context.visible_objects:
         if cels.is_grease_pencil(obj) and key in state.keys_at(obj.data, frame):
             return obj

@@ -130,6 +130,8 @@ def test_a_click_beside_the_lines_keeps_the_drawing_in_the_sidebar(bpy, part, tm
     bpy.ops.mesh.primitive_cube_add()
     assert view_state.shown_in(bpy.context).object == obj
     assert bpy.ops.involute.lock(junction=0) == {"FINISHED"}
+    bpy.ops.object.grease_pencil_add(type="EMPTY")  # as in Draw Mode of a 2D scene
+    assert view_state.shown_in(bpy.context).object == obj
     bpy.context.view_layer.objects.active = other
     assert view_state.shown_in(bpy.context).object == other
     obj.hide_viewport = True
