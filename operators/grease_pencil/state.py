@@ -90,7 +90,7 @@ def load(data: bpy.types.ID, key: int, frame: int | None = None) -> Trace:
     with reading():
         stamp = stored_trace.stamp_of(entry)
         if frame is not None:
-            stamp = stored_trace.stamp_marked(entry, _mark(data, frame, key))
+            stamp = stored_trace.stamp_among(entry, _marks(data, frame, key))
         drawing = stored_trace.drawing_of(entry, stamp)
         pixel_map = stored_trace.pixel_map_of(entry)
         return Trace(key, drawing, pixel_map, stored_trace.source_of(entry), stamp)
@@ -254,14 +254,14 @@ def _counted(column: np.ndarray) -> dict[int, int]:
     return dict(zip(keys.tolist(), counts.tolist(), strict=True))
 
 
-def _mark(data: bpy.types.ID, frame: int, key: int) -> int:
-    """The routing that most of the strokes are marked with; 0 = they have no mark."""
+def _marks(data: bpy.types.ID, frame: int, key: int) -> list[int]:
+    """The routings that the strokes are marked with, the most usual first; 0 = no mark."""
     counts: Counter[int] = Counter()
     for _, cel in cels.cels_at(data, frame):
         keys, marks = (cels.read_column(cel, name) for name in (TRACE, ROUTING))
         if keys is not None and marks is not None:
             counts.update(_counted(marks[keys == key]))
-    return counts.most_common(1)[0][0] if counts else 0
+    return [mark for mark, _ in counts.most_common()] or [0]
 
 
 def _users(some: list[object], key: int) -> int:

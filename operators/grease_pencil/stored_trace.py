@@ -13,9 +13,10 @@ A file may be cut short, or edited by other programs: whatever is wrong is said 
 
 from __future__ import annotations
 
+import re
 import zlib
 from collections import OrderedDict
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from hashlib import blake2b
@@ -49,6 +50,7 @@ _WRONG = (
     ValueError,
     zlib.error,
 )
+_STAMP = re.compile("[0-9a-f]{32}")
 _decoded: OrderedDict[str, Drawing] = OrderedDict()
 
 
@@ -129,18 +131,19 @@ def mark_of(stamp: str) -> int:
     return int(stamp[:8], 16) & 0x7FFFFFFF or 1
 
 
-def stamp_marked(entry: Any, mark: int) -> str:
-    """The stamp of the routing that strokes with this mark are in.
+def stamp_among(entry: Any, marks: Iterable[int]) -> str:
+    """The stamp of the routing that strokes are in.
 
-    Raises:
-        KeyError: it is none of those that are remembered.
+    Args:
+        marks: those that the strokes carry, the most usual first. Copies of an object that were
+            decided on apart and then joined bring marks of routings that nobody remembers here.
     """
     latest = stamp_of(entry)
-    if mark == 0:
-        return _text(entry, "unmarked") if "unmarked" in entry else latest
-    if mark == mark_of(latest):
-        return latest
-    return next(stamp for stamp in entry["earlier"].keys() if mark_of(stamp) == mark)  # noqa: SIM118
+    stamps = [*_earlier(entry), latest]
+    unmarked = entry.get("unmarked")
+    known = {0: unmarked if unmarked in stamps else latest}
+    known |= {mark_of(stamp): stamp for stamp in stamps}
+    return next((known[mark] for mark in marks if mark in known), latest)
 
 
 def drawing_of(entry: Any, stamp: str) -> Drawing:
@@ -229,9 +232,10 @@ def remember(stamp: str, drawing: Drawing) -> None:
 def _earlier(entry: Any) -> dict[str, bytes]:
     """The routings that undo may bring back, by their stamps; what is damaged of them is none."""
     known = entry.get("earlier")
-    if not hasattr(known, "items"):
-        return {}
-    return {stamp: told for stamp, told in known.items() if isinstance(told, bytes)}
+    items = known.items() if hasattr(known, "items") else ()
+    return {
+        stamp: told for stamp, told in items if _STAMP.fullmatch(stamp) and isinstance(told, bytes)
+    }
 
 
 def _hash(content: bytes) -> str:

@@ -381,6 +381,23 @@ def test_joined_objects_keep_their_junctions(bpy, part, traced, forget, tmp_path
     reroute_and_compare(bpy, part, bpy.data.objects["Ink"])
 
 
+def test_copies_decided_apart_and_joined_keep_junctions(bpy, part, traced, forget):
+    """Their strokes are of one trace, in two routings; either object remembers its own."""
+    first, _ = traced
+    bpy.ops.object.duplicate()
+    second = bpy.context.active_object
+    bpy.ops.involute.reroute(junction=2, alternative=1)
+    bpy.ops.involute.reroute(junction=5, alternative=1)
+    assert len(curves_of(part, second)) > len(curves_of(part, first))
+    select(bpy, second, first)
+    bpy.ops.object.join()
+    forget()
+    assert len(bpy.data.objects) == 1
+    assert len(shown(bpy, part).trace.drawing.junctions) == 9
+    assert bpy.types.INVOLUTE_PT_junctions.poll(bpy.context)
+    assert bpy.ops.involute.lock(junction=1) == {"FINISHED"}
+
+
 def test_separated_strokes_keep_their_junctions(bpy, part, traced, tmp_path):
     obj, _ = traced
     bpy.ops.object.mode_set(mode="EDIT")
