@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arrays.ragged import owners
 from ..arrays.two_clusters import finer_pen
 from ..ink.palette import Inks
 from ..ink.pencil import undimmed
@@ -63,14 +64,13 @@ class Page:
         """Sample a graph; without widths, its lines are `_UNKNOWN` px wide."""
         widths = np.full(len(graph.points), _UNKNOWN) if graph.widths is None else graph.widths
         pen = max(float(np.median(finer_pen(widths))), 0.1) if len(widths) else _UNKNOWN
-        held = np.diff(graph.offsets)
-        branch = np.repeat(np.arange(graph.branch_count), held)
+        branch = owners(graph.offsets)
         points = graph.points.astype(np.float64)
         step = np.hypot(*np.diff(points, axis=0, prepend=points[:1]).T)
         step[graph.offsets[:-1]] = 0.0
         # Multiples of 2^-20 add up without rounding, so that nothing depends on what else is here.
         arc = np.cumsum(np.round(step * 2.0**20) / 2.0**20)
-        arc -= np.repeat(arc[graph.offsets[:-1]], held)
+        arc -= arc[graph.offsets[:-1]][branch]
         length = arc[graph.offsets[1:] - 1]
 
         begin, end = points[graph.offsets[:-1]], points[graph.offsets[1:] - 1]
@@ -93,11 +93,9 @@ class Page:
             values = values if values.ndim == 2 else values[:, None]
             return values[low] + t[:, None] * (values[low + 1] - values[low])
 
-        near = np.where(
-            graph.degrees[graph.ends[of_sample]] >= 3,
-            np.stack([along, length[of_sample] - along], 1),
-            np.inf,
-        ).min(1, initial=np.inf)
+        way = np.stack([along, length[of_sample] - along], 1)  # to both ends of the branch
+        meets = graph.degrees[graph.ends[of_sample]] >= 3
+        near = np.where(meets, way, np.inf).min(1, initial=np.inf)
         inks = Inks.of(graph, length, pen) if settings.inks else Inks.black(graph.branch_count)
         opacity = np.ones(len(points))
         if graph.strength is not None:
