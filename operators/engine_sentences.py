@@ -30,6 +30,8 @@ SENTENCES = (
     "Only ends that meet, or that hang on nothing, can be joined.",
     "{0} filled shapes were left out.",
     "What lies beyond the sheet was left out: {0} of the picture.",
+    "The sheet was not straightened: its four corners are not sure.",
+    "The sheet was straightened: its corners were {0}° askew.",
     "Printed rules were left out.",
     "Left out as no part of the drawing: {0}.",
     "dark borders of the scan",

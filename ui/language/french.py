@@ -156,6 +156,10 @@ TEXTS = {
     "Don't trace what lies beyond the sheet in a photograph: cloth, a desk, a finger": (
         "Ne pas vectoriser ce qui dépasse de la feuille sur une photo : tissu, table, doigt"
     ),
+    "Straighten Sheet": "Redresser la feuille",
+    "Take the perspective out of a photographed sheet, as seen from straight above": (
+        "Supprimer la perspective d'une feuille photographiée, comme vue d'en haut"
+    ),
     "Lines wider than this, in pixels of the picture, are solid areas; 0 finds out from the pen": (
         "Les lignes plus larges, en pixels de l'image, sont des aplats ; 0 le déduit de la plume"
     ),
@@ -753,6 +757,12 @@ TEXTS = {
     "{0} filled shapes were left out.": "{0} formes pleines ont été omises.",
     "What lies beyond the sheet was left out: {0} of the picture.": (
         "Ce qui dépasse de la feuille a été omis : {0} de l'image."
+    ),
+    "The sheet was not straightened: its four corners are not sure.": (
+        "La feuille n'a pas été redressée : ses quatre coins ne sont pas sûrs."
+    ),
+    "The sheet was straightened: its corners were {0}° askew.": (
+        "La feuille a été redressée : ses coins étaient de travers de {0}°."
     ),
     "Printed rules were left out.": "Les lignes imprimées ont été omises.",
     "Left out as no part of the drawing: {0}.": "Omis, car ne fait pas partie du dessin : {0}.",

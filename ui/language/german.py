@@ -166,6 +166,10 @@ TEXTS = {
     "Don't trace what lies beyond the sheet in a photograph: cloth, a desk, a finger": (
         "Was auf einem Foto neben dem Blatt liegt, nicht nachziehen: Stoff, Tisch, ein Finger"
     ),
+    "Straighten Sheet": "Blatt entzerren",
+    "Take the perspective out of a photographed sheet, as seen from straight above": (
+        "Ein fotografiertes Blatt entzerren, als sähe man gerade von oben darauf"
+    ),
     "Lines wider than this, in pixels of the picture, are solid areas; 0 finds out from the pen": (
         "Linien, die breiter sind (in Bildpunkten), sind Flächen; 0 ermittelt es aus der Feder"
     ),
@@ -790,6 +794,12 @@ TEXTS = {
     "{0} filled shapes were left out.": "{0} gefüllte Formen wurden weggelassen.",
     "What lies beyond the sheet was left out: {0} of the picture.": (
         "Was außerhalb des Blattes liegt, wurde weggelassen: {0} des Bildes."
+    ),
+    "The sheet was not straightened: its four corners are not sure.": (
+        "Das Blatt wurde nicht entzerrt: seine vier Ecken sind nicht sicher."
+    ),
+    "The sheet was straightened: its corners were {0}° askew.": (
+        "Das Blatt wurde entzerrt: seine Ecken waren um {0}° schief."
     ),
     "Printed rules were left out.": "Gedruckte Hilfslinien wurden weggelassen.",
     "Left out as no part of the drawing: {0}.": "Als nicht zur Zeichnung gehörig weggelassen: {0}.",

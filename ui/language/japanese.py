@@ -155,6 +155,10 @@ TEXTS = {
     "Don't trace what lies beyond the sheet in a photograph: cloth, a desk, a finger": (
         "写真で紙の外に写っているもの (布、机、指など) をトレースしません"
     ),
+    "Straighten Sheet": "用紙の歪みを補正",
+    "Take the perspective out of a photographed sheet, as seen from straight above": (
+        "写真に撮った用紙の遠近の歪みを除き、真上から見たようにします"
+    ),
     "Lines wider than this, in pixels of the picture, are solid areas; 0 finds out from the pen": (
         "これより太い線 (画像のピクセル) はベタとみなします。0 ならペンから判断します"
     ),
@@ -718,6 +722,12 @@ TEXTS = {
     "{0} filled shapes were left out.": ("塗りつぶし図形 {0} 個を除きました。"),
     "What lies beyond the sheet was left out: {0} of the picture.": (
         "紙の外にあるものを除きました: 画像の {0}。"
+    ),
+    "The sheet was not straightened: its four corners are not sure.": (
+        "用紙を補正しませんでした。四隅がはっきりしません。"
+    ),
+    "The sheet was straightened: its corners were {0}° askew.": (
+        "用紙の歪みを補正しました。角のずれは {0}° でした。"
     ),
     "Printed rules were left out.": "印刷された罫線を除きました。",
     "Left out as no part of the drawing: {0}.": ("描画の一部ではないため除きました: {0}。"),
