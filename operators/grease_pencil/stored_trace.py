@@ -138,12 +138,26 @@ def stamp_among(entry: Any, marks: Iterable[int]) -> str:
         marks: those that the strokes carry, the most usual first. Copies of an object that were
             decided on apart and then joined bring marks of routings that nobody remembers here.
     """
-    latest = stamp_of(entry)
-    stamps = [*_earlier(entry), latest]
-    unmarked = entry.get("unmarked")
+    known = _known(entry)
+    return next((known[mark] for mark in marks if mark in known), stamp_of(entry))
+
+
+def holds(entry: Any, mark: int) -> bool:
+    """Does an entry know the routing that strokes with this mark are in?"""
+    try:
+        return mark in _known(entry)
+    except _WRONG:
+        return False
+
+
+def _known(entry: Any) -> dict[int, str]:
+    """The stamps of all routings that are remembered, by the marks of their strokes."""
+    latest, unmarked = stamp_of(entry), entry.get("unmarked")
+    earlier = entry.get("earlier")
+    names = earlier.keys() if hasattr(earlier, "keys") else ()
+    stamps = [*filter(_STAMP.fullmatch, names), latest]
     known = {0: unmarked if unmarked in stamps else latest}
-    known |= {mark_of(stamp): stamp for stamp in stamps}
-    return next((known[mark] for mark in marks if mark in known), latest)
+    return known | {mark_of(stamp): stamp for stamp in stamps}
 
 
 def drawing_of(entry: Any, stamp: str) -> Drawing:
