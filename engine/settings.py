@@ -225,6 +225,14 @@ class Settings:
         off="drop small dots as specks",
         more="Dots wider than three quarters of *Specks* times the pen",
     )
+    dashes: bool = _switch(
+        False,
+        group=CLEAN,
+        stage="graph",
+        label="Join Dashes",
+        tip="Make one stroke of a dashed or dotted line, and note how it is dashed",
+        more="From four even dashes or dots on; they run on through junctions. SVG shows the gaps",
+    )
     smoothing: float = _number(
         0.3,
         0.0,

@@ -19,6 +19,7 @@ import numpy as np
 from ..values import Array
 
 BLOCK = 32  # px; tiles begin and end at multiples of it (and of the network's stride)
+BEYOND = 16  # px of paper around the page: a network answers differently at the rim of what it sees
 CONTEXT = 96  # px that a network sees beyond a tile, so that the tile's size makes no difference
 # px; longest side of a window, which bounds the memory (540 MB, or 240 MB on pages that are large
 # themselves). Windows of 1536 px look at 14 to 56 % less than those of 1024 px on A4 pages, and a
@@ -47,7 +48,8 @@ class Tile:
         return (self.bottom - self.top) * (self.right - self.left)
 
     def window(self, active: Array, height: int, width: int) -> tuple[slice, slice]:
-        """Rows and columns of the tile and its context, on a page of the given size.
+        """Rows and columns of the tile and its context, on a page of the given size and a rim of
+        BEYOND px of paper around it.
 
         Where all that is white paper, less of it will do.
         """
@@ -62,8 +64,8 @@ class Tile:
         before = CONTEXT if active[rows, columns.start : left].any() else _PAPER_CONTEXT
         after = CONTEXT if active[rows, right : columns.stop].any() else _PAPER_CONTEXT
         return (
-            slice(max(0, self.top - above), min(height, self.bottom + below)),
-            slice(max(0, self.left - before), min(width, self.right + after)),
+            slice(max(-BEYOND, self.top - above), min(height + BEYOND, self.bottom + below)),
+            slice(max(-BEYOND, self.left - before), min(width + BEYOND, self.right + after)),
         )
 
 
@@ -90,16 +92,15 @@ def shift_of(ink: Array) -> tuple[int, int]:
 
 
 def moved(ink: Array, rows: slice, columns: slice, shift: tuple[int, int]) -> Array:
-    """A part of the page as it lies when `shift` rows and columns of paper are put before it."""
-    down, right = shift
-    part = ink[
-        max(0, rows.start - down) : max(0, rows.stop - down),
-        max(0, columns.start - right) : max(0, columns.stop - right),
-    ]
-    above, before = max(0, down - rows.start), max(0, right - columns.start)
-    if above or before:
-        part = np.pad(part, ((above, 0), (before, 0)))
-    return np.ascontiguousarray(part)
+    """A part of the page as it lies when `shift` rows and columns of paper are put before it;
+    beyond the page there is paper."""
+    spans, around = [], []
+    for span, before, side in zip((rows, columns), shift, ink.shape, strict=True):
+        start, stop = span.start - before, span.stop - before
+        spans.append(slice(max(0, start), max(0, stop)))
+        around.append((max(0, -start), max(0, stop - side)))
+    part = ink[spans[0], spans[1]]
+    return np.ascontiguousarray(np.pad(part, around) if np.any(around) else part)
 
 
 def active_blocks(ink: Array, shift: tuple[int, int] = (0, 0)) -> Array:
@@ -156,8 +157,10 @@ def _cover(active: Array, largest: int) -> list[tuple[int, int, int, int]]:
 
 
 def _window(start: int, stop: int, length: int) -> int:
-    """The extent in px of a tile with its context, as far as the page reaches; given in blocks."""
-    return min(length * BLOCK, stop * BLOCK + CONTEXT) - max(0, start * BLOCK - CONTEXT)
+    """The extent in px of a tile with its context, as far as the page and the paper around it
+    reach; given in blocks."""
+    end = min(length * BLOCK + BEYOND, stop * BLOCK + CONTEXT)
+    return end - max(-BEYOND, start * BLOCK - CONTEXT)
 
 
 def _trim(active: Array, box: tuple[int, int, int, int]) -> tuple[int, int, int, int] | None:

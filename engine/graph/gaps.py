@@ -7,6 +7,7 @@ hatching are farther apart than that. (The paper leaves gaps to its network.)
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -31,7 +32,7 @@ def bridge_gaps(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> P
     value, pen_width = evidence.value, evidence.pen_width
     free = np.flatnonzero(graph.degrees[graph.half_vertex] == 1)
     reach = max(LIMITS.gap_least, LIMITS.gap_widest * pen_width)
-    tips, outward = _looks(graph, free)
+    tips, outward = looks(graph, free)
     a, b = near_pairs(tips, reach).T
     # Both ends of one short piece look away from each other, but see each other all the same.
     a, b = (v[free[a] >> 1 != free[b] >> 1] for v in (a, b))
@@ -53,18 +54,22 @@ def bridge_gaps(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> P
     a, b, cost = a[fits], b[fits], (gap + 2 * aside)[fits]
     best = _mutual(a, b, cost, len(free))
     links = graph.half_vertex[free[np.stack([a[best], b[best]], -1)]]
-    if not len(links):
-        return graph
-    offsets = graph.offsets[-1] + 2 * np.arange(1, len(links) + 1)
+    return bridged(graph, links, list(graph.vertices[links])) if len(links) else graph
+
+
+def bridged(graph: PlanarGraph, links: Array, lines: Sequence[Array]) -> PlanarGraph:
+    """An unmeasured graph with one branch more for each link (K, 2) of two vertices: a line (N, 2)
+    from one to the other."""
+    offsets = graph.offsets[-1] + np.cumsum([len(line) for line in lines])
     return replace(
         graph,
-        points=np.concatenate([graph.points, graph.vertices[links].reshape(-1, 2)]),
+        points=np.concatenate([graph.points, *lines]).astype(np.float32),
         offsets=np.concatenate([graph.offsets, offsets]).astype(np.int32),
         ends=np.concatenate([graph.ends, links]).astype(np.int32),
     )
 
 
-def _looks(graph: PlanarGraph, free: Array) -> tuple[Array, Array]:
+def looks(graph: PlanarGraph, free: Array) -> tuple[Array, Array]:
     """Where free half-branches end (N, 2), and the unit direction in which each would go on."""
     branch, last = free >> 1, free & 1
     tip = np.where(last, graph.offsets[branch + 1] - 1, graph.offsets[branch])

@@ -37,6 +37,7 @@ class Page:
     crossed: (2B,) bool; the half-branch starts at a junction.
     inks: the colours of the page.
     solid: (K,) bool for each of them; its strokes are opaque.
+    bare: (M,) bool, samples in a gap of a dashed line; None = nobody looked.
     """
 
     pen: float
@@ -50,6 +51,7 @@ class Page:
     inks: Inks
     solid: Array
     settings: Settings
+    bare: Array | None = None
 
     @classmethod
     def of(cls, graph: PlanarGraph, settings: Settings) -> Page:
@@ -107,6 +109,7 @@ class Page:
             inks=inks,
             solid=_solid(opacity, branch, inks, settings.opacity),
             settings=settings,
+            bare=None if graph.bare is None else at(graph.bare)[:, 0] > 0.5,
         )
 
 

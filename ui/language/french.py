@@ -164,6 +164,10 @@ TEXTS = {
         "Garder les points d'encre pleine à peu près aussi larges que la plume, qui ne sont pas "
         "des taches"
     ),
+    "Join Dashes": "Joindre les tirets",
+    "Make one stroke of a dashed or dotted line, and note how it is dashed": (
+        "Faire un seul trait d'une ligne tiretée ou pointillée, et noter ses tirets"
+    ),
     "Opacity": "Opacité",
     "How opaque the strokes are": "Opacité des traits",
     "Solid": "Pleine",

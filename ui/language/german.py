@@ -173,6 +173,11 @@ TEXTS = {
     "Keep dots of full ink about as wide as the pen, which are no specks": (
         "Satte Punkte behalten, die etwa so breit wie die Feder und damit keine Flecken sind"
     ),
+    "Join Dashes": "Gestricheltes verbinden",
+    "Make one stroke of a dashed or dotted line, and note how it is dashed": (
+        "Aus einer gestrichelten oder punktierten Linie einen Strich machen und festhalten, wie "
+        "sie gestrichelt ist"
+    ),
     "Opacity": "Deckkraft",
     "How opaque the strokes are": "Wie stark die Striche decken",
     "Solid": "Deckend",

@@ -162,6 +162,10 @@ TEXTS = {
     "Keep dots of full ink about as wide as the pen, which are no specks": (
         "ペンとほぼ同じ太さの濃い点を、ごみとみなさずに残します"
     ),
+    "Join Dashes": "破線をつなぐ",
+    "Make one stroke of a dashed or dotted line, and note how it is dashed": (
+        "破線や点線を1本のストロークにし、その間隔を記録します"
+    ),
     "Opacity": "不透明度",
     "How opaque the strokes are": "ストロークの不透明度",
     "Solid": "不透明",
