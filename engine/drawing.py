@@ -17,7 +17,7 @@ import numpy as np
 from .errors import InvoluteError
 from .fidelity import Fidelity, fidelity, warnings
 from .graph.editing import Edits, Step, edited, place_on
-from .routing import around, checked_pairs, rescored, route, taught
+from .routing import around, checked_pairs, place_of_pairs, rescored, route, taught
 from .routing.cost import costs
 from .routing.lifting import goes_on
 from .routing.ways import Ways
@@ -385,6 +385,29 @@ class Drawing:
         routing = rescored(self.graph, self.routing, pair_score, self._decided)
         return replace(self, routing=routing)
 
+    def heard(self, said: Array) -> Drawing:
+        """The places that are not locked, decided anew with what somebody says of their pairs.
+
+        The probabilities stay what the picture alone says: who decided against it is in doubt.
+
+        Args:
+            said: (K,) log-odds that each pair of `Routing.pairs` is one line; 0 = nothing is said.
+        """
+        routing, decided = self.routing, self._decided
+        where = np.unique(place_of_pairs(self.graph, routing.pairs[said != 0]))
+        where = where[~routing.locked[where]]
+        if not len(where):
+            return self
+        heard = rescored(self.graph, routing, routing.pair_score + said, decided, where)
+        ways = {place: heard.alternatives[place][0].pairs for place in where.tolist()}
+        first = len(self.graph.junctions)
+        on = goes_on(heard.pair_score[-len(self.graph.places) + first :], self.settings.corners)
+        for place in where[where >= first].tolist():
+            a, b = self._pairs_at_corners[place - first].tolist()
+            ways[place] = ((a, b),) if on[place - first] else ()
+        shown = rescored(self.graph, routing, routing.pair_score, {**decided, **ways}, where)
+        return self._with_ways(ways, shown)
+
     def ask_again(self) -> Drawing:
         """Route the junctions and corners that are not locked anew, given those that are."""
         graph = self.graph.scaled(1 / self.scale)
@@ -406,14 +429,8 @@ class Drawing:
         if not len(heard):
             return self
         routing = rescored(self.graph, self.routing, score, decided, heard)
-        partner = self.routing.partner.copy()
-        for place in heard.tolist():
-            halves = self.graph.halves_of(self.graph.places[place])
-            partner[halves] = halves
-            for a, b in routing.alternatives[place][0].pairs:
-                partner[a], partner[b] = b, a
-        changed = self._with_partner(partner)
-        return replace(changed, routing=replace(routing, partner=changed.routing.partner))
+        ways = {place: routing.alternatives[place][0].pairs for place in heard.tolist()}
+        return self._with_ways(ways, routing)
 
     def restroked(self, settings: Settings) -> Drawing:
         """The same lines and decisions with the strokes made anew.
@@ -475,3 +492,14 @@ class Drawing:
         strokes = sorted([*kept, *made], key=lambda s: int(s.branches.min()) >> 1)
         routing = replace(self.routing, partner=np.asarray(partner, np.int32))
         return replace(self, strokes=tuple(strokes), routing=routing, page=self._page)
+
+    def _with_ways(self, ways: Mapping[int, tuple[Pair, ...]], routing: Routing) -> Drawing:
+        """Route some places so; all that is said of the routing but its partners is given."""
+        partner = self.routing.partner.copy()
+        for place, pairs in ways.items():
+            halves = self.graph.halves_of(self.graph.places[place])
+            partner[halves] = halves
+            for a, b in pairs:
+                partner[a], partner[b] = b, a
+        changed = self._with_partner(partner)
+        return replace(changed, routing=replace(routing, partner=changed.routing.partner))

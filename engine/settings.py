@@ -171,6 +171,15 @@ class Settings:
         tip="Don't trace what lies beyond the sheet in a photograph: cloth, a desk, a finger",
         off="trace what lies beyond the sheet in a photograph too",
     )
+    straighten: bool = _switch(
+        False,
+        group=WHAT,
+        stage="scan",
+        label="Straighten Sheet",
+        tip="Take the perspective out of a photographed sheet, as seen from straight above",
+        more="Where all four corners of the sheet are sure; the result says so. The drawing no "
+        "longer lies on the lines of the photo",
+    )
     rules: bool = _switch(
         True,
         group=WHAT,
