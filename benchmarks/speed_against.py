@@ -176,15 +176,15 @@ def main(argv: Sequence[str] | None = None) -> Figures:
                         print(f"{row}, {column}: {rows[row][column]:.2f}", file=sys.stderr)
                     if case == "white pages":
                         keep(row, f"{_YARDSTICK} s", _yardstick(paths))
-    for row in rows.values():
-        row["old / new"] = row["old s"] / row["new s"]
+    for known in rows.values():
+        known["old / new"] = known["old s"] / known["new s"]
         with suppress(KeyError):
-            row[f"times {_YARDSTICK}"] = row["new s"] / row[f"{_YARDSTICK} s"]
-            row[f"old, times {_YARDSTICK}"] = row["old s"] / row[f"{_YARDSTICK} s"]
+            known[f"times {_YARDSTICK}"] = known["new s"] / known[f"{_YARDSTICK} s"]
+            known[f"old, times {_YARDSTICK}"] = known["old s"] / known[f"{_YARDSTICK} s"]
     columns = list(dict.fromkeys(name for row in rows.values() for name in row))
     lines = [
-        [name, *(f"{row[c]:.2f}" if c in row else "" for c in columns)]
-        for name, row in rows.items()
+        [name, *(f"{known[c]:.2f}" if c in known else "" for c in columns)]
+        for name, known in rows.items()
     ]
     print(markdown(["CPU s a page, one thread", *columns], lines))
     return rows
