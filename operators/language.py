@@ -13,6 +13,11 @@ def label(text: str, **values: object) -> str:
     return said.format(**values) if values else said
 
 
+def reported(problem: RuntimeError) -> str:
+    """What an operator has reported that was called by another one: Blender raises it."""
+    return str(problem).strip().removeprefix("Error: ")
+
+
 def message(text: object, **values: object) -> str:
     """A sentence that is reported, such as an error; `values` fill its {places}.
 

@@ -136,9 +136,20 @@ def stamp_marked(entry: Any, mark: int) -> str:
     latest = stamp_of(entry)
     if mark == 0:
         return _text(entry, "unmarked") if "unmarked" in entry else latest
-    if mark == mark_of(latest):
-        return latest
-    return next(stamp for stamp in entry["earlier"].keys() if mark_of(stamp) == mark)  # noqa: SIM118
+    known = entry["earlier"].keys() if "earlier" in entry else ()
+    for stamp in (latest, *known):
+        if mark_of(stamp) == mark:
+            return stamp
+    raise KeyError(mark)
+
+
+def holds(entry: Any, mark: int) -> bool:
+    """Does an entry know the routing that strokes with this mark are in?"""
+    try:
+        stamp_marked(entry, mark)
+    except _WRONG:
+        return False
+    return True
 
 
 def drawing_of(entry: Any, stamp: str) -> Drawing:

@@ -10,6 +10,7 @@ from bpy.props import CollectionProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper
 
 from ...engine.formats.picture_kinds import SUFFIXES
+from ..language import reported
 
 TRACED = (*SUFFIXES, ".svg")  # an SVG's lines are taken as they are and routed anew
 
@@ -42,7 +43,7 @@ class Handing:
         try:
             result = operator(way, **options)
         except RuntimeError as problem:
-            self.report({"ERROR"}, str(problem).strip().removeprefix("Error: "))
+            self.report({"ERROR"}, reported(problem))
             return {"CANCELLED"}
         return {"CANCELLED"} if result == {"CANCELLED"} else {"FINISHED"}
 

@@ -267,6 +267,60 @@ def test_undo_takes_routing_and_strokes_back(bpy, part, traced, mode):
     assert not now().junctions[2].locked
 
 
+@pytest.mark.parametrize("saved", [False, True])
+def test_undo_back_into_edit_mode_brings_strokes_without_their_properties(
+    bpy, part, traced, forget, tmp_path, saved
+):
+    """Blender loads the file of when Edit Mode was entered, and strokes of a later step."""
+    obj, pixel_map = traced
+    name = obj.name
+    bpy.ops.ed.undo_push(message="start")
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.ed.undo_push(message="Toggle Edit Mode")
+    bpy.ops.involute.reroute(junction=1, alternative=1)
+    bpy.ops.ed.undo_push(message="reroute")
+    wanted = drawing_of(part, obj, frame=1).routing.partner
+    bpy.ops.object.mode_set(mode="OBJECT")
+    bpy.ops.ed.undo_push(message="Toggle Edit Mode")
+    bpy.data.objects[name].location.x += 1
+    bpy.ops.ed.undo_push(message="Move")
+    bpy.ops.ed.undo()
+    bpy.ops.ed.undo()
+    if saved:
+        path = str(tmp_path / "undone.blend")
+        bpy.ops.wm.save_as_mainfile(filepath=path)
+        bpy.ops.wm.open_mainfile(filepath=path, load_ui=False)
+        forget()
+    obj = bpy.data.objects[name]
+    drawing = drawing_of(part, obj, frame=1)
+    np.testing.assert_array_equal(drawing.routing.partner, wanted)
+    assert_same(strokes_in(part, obj, pixel_map), drawing.strokes)
+    bpy.context.view_layer.objects.active = obj
+    bpy.ops.involute.lock(junction=2)  # and it can be worked on
+    assert drawing_of(part, obj, frame=1).junctions[2].locked
+
+
+def test_undo_of_another_trace_in_edit_mode(bpy, part, traced):
+    """What was stored of the trace before went with it; its strokes come back."""
+    obj, pixel_map = traced
+    name = obj.name
+    state = part("operators.grease_pencil.state")
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.ed.undo_push(message="start")
+    (key,) = state.keys_at(obj.data, 1)
+    before = drawing_of(part, obj, frame=1)
+    settings = part("engine").Settings(
+        **{**before.settings.as_dict(), "smoothing": 0.9, "align": ()}
+    )
+    new = before.restroked(settings)
+    part("operators.grease_pencil.retracing").retrace(obj.data, 1, key, new)
+    bpy.ops.ed.undo_push(message="Trace Again")
+    bpy.ops.ed.undo()
+    obj = bpy.data.objects[name]
+    assert state.keys_at(obj.data, 1) == [key]
+    assert_same(strokes_in(part, obj, pixel_map), drawing_of(part, obj, frame=1).strokes)
+
+
 def test_what_undo_took_back_is_saved(bpy, part, traced, forget, tmp_path):
     obj, pixel_map = traced
     bpy.ops.object.mode_set(mode="EDIT")

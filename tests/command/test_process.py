@@ -49,10 +49,10 @@ def run(*arguments, **more) -> subprocess.CompletedProcess:
 def test_in_a_pipe_only_trouble_is_told(tmp_path, capsys):
     page(tmp_path / "in" / "a.png")
     (tmp_path / "in" / "notes.txt").write_text("words")
-    (tmp_path / "in" / "plan.pdf").write_text("%PDF")
+    (tmp_path / "in" / "plan.kra").write_text("PK")
     assert trace(tmp_path / "in", "-o", tmp_path / "out") == 0
     said = capsys.readouterr().err
-    assert said.startswith("involute: left out: notes.txt (not a picture); plan.pdf (PDF is not")
+    assert said.startswith("involute: left out: notes.txt (not a picture); plan.kra (Krita is not")
     assert len(said.splitlines()) == 1
     assert trace(tmp_path / "in", "-o", tmp_path / "out2", "--quiet") == 0
     assert capsys.readouterr().err == ""
