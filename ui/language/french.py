@@ -160,6 +160,10 @@ TEXTS = {
     "Take the perspective out of a photographed sheet, as seen from straight above": (
         "Supprimer la perspective d'une feuille photographiée, comme vue d'en haut"
     ),
+    "Leave Out the Back": "Omettre le verso",
+    "Don't trace what shows through from the back of the sheet, paler and softer": (
+        "Ne pas tracer ce qui transparaît du verso de la feuille, plus pâle et plus flou"
+    ),
     "Lines wider than this, in pixels of the picture, are solid areas; 0 finds out from the pen": (
         "Les lignes plus larges, en pixels de l'image, sont des aplats ; 0 le déduit de la plume"
     ),
@@ -757,6 +761,9 @@ TEXTS = {
     "{0} filled shapes were left out.": "{0} formes pleines ont été omises.",
     "What lies beyond the sheet was left out: {0} of the picture.": (
         "Ce qui dépasse de la feuille a été omis : {0} de l'image."
+    ),
+    "What shows through from the back was left out: {0} of the ink.": (
+        "Ce qui transparaît du verso a été omis : {0} de l'encre."
     ),
     "The sheet was not straightened: its four corners are not sure.": (
         "La feuille n'a pas été redressée : ses quatre coins ne sont pas sûrs."

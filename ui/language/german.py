@@ -170,6 +170,10 @@ TEXTS = {
     "Take the perspective out of a photographed sheet, as seen from straight above": (
         "Ein fotografiertes Blatt entzerren, als sähe man gerade von oben darauf"
     ),
+    "Leave Out the Back": "Rückseite weglassen",
+    "Don't trace what shows through from the back of the sheet, paler and softer": (
+        "Nicht nachziehen, was von der Rückseite des Blattes durchscheint, blasser und weicher"
+    ),
     "Lines wider than this, in pixels of the picture, are solid areas; 0 finds out from the pen": (
         "Linien, die breiter sind (in Bildpunkten), sind Flächen; 0 ermittelt es aus der Feder"
     ),
@@ -794,6 +798,9 @@ TEXTS = {
     "{0} filled shapes were left out.": "{0} gefüllte Formen wurden weggelassen.",
     "What lies beyond the sheet was left out: {0} of the picture.": (
         "Was außerhalb des Blattes liegt, wurde weggelassen: {0} des Bildes."
+    ),
+    "What shows through from the back was left out: {0} of the ink.": (
+        "Was von der Rückseite durchscheint, wurde weggelassen: {0} der Tusche."
     ),
     "The sheet was not straightened: its four corners are not sure.": (
         "Das Blatt wurde nicht entzerrt: seine vier Ecken sind nicht sicher."

@@ -159,6 +159,10 @@ TEXTS = {
     "Take the perspective out of a photographed sheet, as seen from straight above": (
         "写真に撮った用紙の遠近の歪みを除き、真上から見たようにします"
     ),
+    "Leave Out the Back": "裏面を除く",
+    "Don't trace what shows through from the back of the sheet, paler and softer": (
+        "用紙の裏から透けて見える、薄くてぼけたものをトレースしません"
+    ),
     "Lines wider than this, in pixels of the picture, are solid areas; 0 finds out from the pen": (
         "これより太い線 (画像のピクセル) はベタとみなします。0 ならペンから判断します"
     ),
@@ -722,6 +726,9 @@ TEXTS = {
     "{0} filled shapes were left out.": ("塗りつぶし図形 {0} 個を除きました。"),
     "What lies beyond the sheet was left out: {0} of the picture.": (
         "紙の外にあるものを除きました: 画像の {0}。"
+    ),
+    "What shows through from the back was left out: {0} of the ink.": (
+        "裏面から透けて見えるものを除きました: インクの {0}。"
     ),
     "The sheet was not straightened: its four corners are not sure.": (
         "用紙を補正しませんでした。四隅がはっきりしません。"
