@@ -91,7 +91,7 @@ class Drawing:
         if widths is None:
             widths = np.full(len(graph.points), scan.pen_width, np.float32)
         graph = replace(graph, widths=widths).scaled(scan.scale)
-        page = Page.of(graph, settings)
+        page = Page.of(graph, settings, scan.size)
         drawing = cls(
             graph=graph,
             routing=routing,
@@ -365,7 +365,7 @@ class Drawing:
         graph, routing, touched = edited(self.graph, self.routing, steps)
         if not steps:
             return self
-        page = Page.of(graph, self.settings)
+        page = Page.of(graph, self.settings, self.size)
         gone = [s for s in self.strokes if not touched.isdisjoint((s.branches >> 1).tolist())]
         branches = touched.union(*((s.branches >> 1).tolist() for s in gone))
         left = {id(s) for s in gone}
@@ -438,7 +438,7 @@ class Drawing:
         Args:
             settings: may differ in `STROKE_SETTINGS` only.
         """
-        page = Page.of(self.graph, settings)
+        page = Page.of(self.graph, settings, self.size)
         strokes = tuple(build(page, walk(self.routing.partner)))
         return replace(self, strokes=strokes, settings=settings, page=page)
 
@@ -457,7 +457,7 @@ class Drawing:
 
     @cached_property
     def _page(self) -> Page:
-        return self.page or Page.of(self.graph, self.settings)
+        return self.page or Page.of(self.graph, self.settings, self.size)
 
     def _with_locked(self, junctions: Iterable[int], value: bool) -> Drawing:
         locked = self.routing.locked.copy()

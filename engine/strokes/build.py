@@ -38,7 +38,7 @@ def build(page: Page, walks: Sequence[Walk]) -> list[Stroke]:
     lines = Lines.of(page, walks, margin(page.settings.smoothing))
     raw = page.points[lines.sample]
     corner = find_corners(raw, lines)
-    points = sharpen(raw, lines, corner, page.pen)
+    points = sharpen(raw, lines, corner, page.pen, page.size)
     points = _with_length(smooth(points, lines, corner, page.settings.smoothing), raw, lines)
     widths, opacity = _ink(page, lines)
     kept, handles = _few(page, lines, corner, points, widths, opacity)

@@ -96,9 +96,9 @@ def load(data: bpy.types.ID, key: int, frame: int | None = None) -> Trace:
     with reading():
         stamp = stored_trace.stamp_of(entry)
         if frame is not None:
-            mark = _mark(data, frame, key)
-            entry = _knowing(entry, key, mark)
-            stamp = stored_trace.stamp_marked(entry, mark)
+            marks = _marks([cel for _, cel in cels.cels_at(data, frame)], key)
+            entry = _knowing(entry, key, marks[0])
+            stamp = stored_trace.stamp_among(entry, marks)
         drawing = stored_trace.drawing_of(entry, stamp)
         pixel_map = stored_trace.pixel_map_of(entry)
         return Trace(key, drawing, pixel_map, stored_trace.source_of(entry), stamp)
@@ -244,7 +244,7 @@ def adopt(data: bpy.types.ID) -> None:
     wanted: dict[int, int] = {}
     for cel in cels.all_cels(data):
         for key in _strokes_by_key(cel):
-            wanted.setdefault(key, _mark_in([cel], key))
+            wanted.setdefault(key, _marks([cel], key)[0])
     for key, mark in sorted(wanted.items()):
         entry = _entry(data, key) if key > 0 else None
         if entry is None:
@@ -289,18 +289,14 @@ def _counted(column: np.ndarray) -> dict[int, int]:
     return dict(zip(keys.tolist(), counts.tolist(), strict=True))
 
 
-def _mark(data: bpy.types.ID, frame: int, key: int) -> int:
-    """The routing that most of the strokes are marked with; 0 = they have no mark."""
-    return _mark_in([cel for _, cel in cels.cels_at(data, frame)], key)
-
-
-def _mark_in(some: list[object], key: int) -> int:
+def _marks(some: list[object], key: int) -> list[int]:
+    """The routings that the strokes in cels are marked with, the most usual first; 0 = no mark."""
     counts: Counter[int] = Counter()
     for cel in some:
         keys, marks = (cels.read_column(cel, name) for name in (TRACE, ROUTING))
         if keys is not None and marks is not None:
             counts.update(_counted(marks[keys == key]))
-    return counts.most_common(1)[0][0] if counts else 0
+    return [mark for mark, _ in counts.most_common()] or [0]
 
 
 def _users(some: list[object], key: int) -> int:

@@ -270,6 +270,21 @@ def test_told_to_end_it_leaves_nothing(number, wait, tmp_path):
         assert Drawing.load(path).strokes
 
 
+def test_whatever_a_library_makes_of_it_is_being_stopped(monkeypatch, capsys):
+    """OpenCV says that NumPy failed when it is interrupted while it is loaded."""
+
+    def loading(*_):
+        try:
+            os.kill(os.getpid(), signal.SIGINT)
+            time.sleep(10)
+        except KeyboardInterrupt:
+            raise ImportError("numpy._core.multiarray failed to import") from None
+
+    monkeypatch.setattr(cli, "_run", loading)
+    assert cli.main(["inspect", "x"]) == cli.STOPPED
+    assert capsys.readouterr().err.startswith("involute: Stopped;")
+
+
 @pytest.mark.skipif(not Path("/proc/self/maps").exists(), reason="Linux tells what is loaded")
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
 @pytest.mark.parametrize("wait", [0.0, 0.2])

@@ -128,10 +128,11 @@ class INVOLUTE_PT_summary(bpy.types.Panel):
         for icon, sentences in (("ERROR", drawing.warnings), ("INFO", drawing.notes)):
             for sentence in sentences:
                 draw_sentence(self.layout, message(sentence), icon)
-        row = self.layout.row(align=True)
+        column = self.layout.column(align=True)
+        row = column.row(align=True)
         row.operator(INVOLUTE_OT_trace_again.bl_idname, icon="FILE_REFRESH")
         row.operator(INVOLUTE_OT_take_settings.bl_idname, text="", icon="EYEDROPPER")
-        row.prop(shown.view, "live", toggle=True)
+        column.prop(shown.view, "live", toggle=True, icon="PLAY")
         scan = scan_of(shown.object)
         if scan is not None:
             row = self.layout.row(align=True)
