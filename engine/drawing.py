@@ -387,8 +387,11 @@ class Drawing:
 
     def ask_again(self) -> Drawing:
         """Route the junctions and corners that are not locked anew, given those that are."""
+        if self.pencil:  # there, each junction is judged for itself
+            places = np.flatnonzero(~self.routing.locked)
+            return self._with_best(self.routing, places)
         graph = self.graph.scaled(1 / self.scale)
-        routing = route(graph, self.settings, self._decided, rough=self.pencil is not None)
+        routing = route(graph, self.settings, self._decided)
         return replace(self._with_partner(routing.partner), routing=routing)
 
     def ask_around(self, before: Drawing) -> Drawing:
@@ -405,9 +408,12 @@ class Drawing:
         heard = heard[~self.routing.locked[heard]]
         if not len(heard):
             return self
-        routing = rescored(self.graph, self.routing, score, decided, heard)
+        return self._with_best(rescored(self.graph, self.routing, score, decided, heard), heard)
+
+    def _with_best(self, routing: Routing, places: Array) -> Drawing:
+        """The most probable way at some places, as a routing ranks them."""
         partner = self.routing.partner.copy()
-        for place in heard.tolist():
+        for place in places.tolist():
             halves = self.graph.halves_of(self.graph.places[place])
             partner[halves] = halves
             for a, b in routing.alternatives[place][0].pairs:

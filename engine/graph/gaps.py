@@ -31,7 +31,7 @@ def bridge_gaps(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> P
     value, pen_width = evidence.value, evidence.pen_width
     free = np.flatnonzero(graph.degrees[graph.half_vertex] == 1)
     reach = max(LIMITS.gap_least, LIMITS.gap_widest * pen_width)
-    tips, outward = _looks(graph, free)
+    tips, outward = looks(graph, free)
     a, b = near_pairs(tips, reach).T
     # Both ends of one short piece look away from each other, but see each other all the same.
     a, b = (v[free[a] >> 1 != free[b] >> 1] for v in (a, b))
@@ -51,20 +51,33 @@ def bridge_gaps(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> P
     fits &= sample(value, (tips[a] + tips[b]) / 2) < np.minimum(light[a], light[b])
     fits &= (gap < reach) & (gap < 2 * shorter + LIMITS.gap_least)
     a, b, cost = a[fits], b[fits], (gap + 2 * aside)[fits]
-    best = _mutual(a, b, cost, len(free))
+    best = mutual(a, b, cost, len(free))
     links = graph.half_vertex[free[np.stack([a[best], b[best]], -1)]]
-    if not len(links):
-        return graph
+    return linked(graph, links) if len(links) else graph
+
+
+def linked(graph: PlanarGraph, links: Array) -> PlanarGraph:
+    """The graph with a straight branch between the vertices of each link, (K, 2); it has the
+    widths and the ink of what ends there."""
     offsets = graph.offsets[-1] + 2 * np.arange(1, len(links) + 1)
+    tip = np.zeros(len(graph.vertices), np.int64)
+    tip[graph.ends.ravel()] = np.stack([graph.offsets[:-1], graph.offsets[1:] - 1], 1).ravel()
+
+    def longer(values: Array | None) -> Array | None:
+        return None if values is None else np.concatenate([values, values[tip[links.ravel()]]])
+
     return replace(
         graph,
         points=np.concatenate([graph.points, graph.vertices[links].reshape(-1, 2)]),
         offsets=np.concatenate([graph.offsets, offsets]).astype(np.int32),
         ends=np.concatenate([graph.ends, links]).astype(np.int32),
+        widths=longer(graph.widths),
+        strength=longer(graph.strength),
+        colors=longer(graph.colors),
     )
 
 
-def _looks(graph: PlanarGraph, free: Array) -> tuple[Array, Array]:
+def looks(graph: PlanarGraph, free: Array) -> tuple[Array, Array]:
     """Where free half-branches end (N, 2), and the unit direction in which each would go on."""
     branch, last = free >> 1, free & 1
     tip = np.where(last, graph.offsets[branch + 1] - 1, graph.offsets[branch])
@@ -79,7 +92,7 @@ def _cross(a: Array, b: Array) -> Array:
     return np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
 
 
-def _mutual(a: Array, b: Array, cost: Array, count: int) -> Array:
+def mutual(a: Array, b: Array, cost: Array, count: int) -> Array:
     """Indices of the pairs that are the cheapest one for both of their ends."""
     least = np.full(count, np.inf)
     np.minimum.at(least, a, cost)
