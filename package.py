@@ -1,4 +1,4 @@
-"""Builds the extension: `python package.py`, one zip per platform with its two wheels.
+"""Builds the extension: `python package.py`, one zip per platform with its three wheels.
 
 `python package.py --repository FOLDER` makes a folder of them that Blender installs and updates
 from: any web server can hand it out.

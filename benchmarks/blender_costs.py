@@ -13,6 +13,7 @@ import shutil
 import subprocess
 import time
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -23,9 +24,10 @@ from involute import package
 from involute.engine import Drawing, Settings, Stroke, vectorize
 from involute.operators.grease_pencil import routing_change, state, writing
 from involute.operators.grease_pencil.core.pixel_map import front_view
+from involute.operators.grease_pencil.retracing import retrace
 from involute.operators.tracing.trace import new_object
 from involute.operators.view.junction_table import JunctionTable
-from involute.ui.overlay import colors, overlay_geometry
+from involute.ui.overlay import colors, overlay_geometry, stroke_overlay
 
 from .run_record import Figures
 
@@ -42,6 +44,15 @@ def main(argv: Sequence[str] | None = None) -> Figures:
     argparse.ArgumentParser(description=__doc__.splitlines()[0]).parse_args(argv)
     told, rows = report()
     print(told)
+    return {what: {"ms": milliseconds, "at most": limit} for what, milliseconds, limit in rows}
+
+
+def seconds_of_an_artist(argv: Sequence[str] | None = None) -> Figures:
+    """What is waited for while reviewing and adjusting: `python -m benchmarks run artist`."""
+    argparse.ArgumentParser(description="Waits of an artist.").parse_args(argv)
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    rows = [colors_unchanged(1000), review_step(1000), smoothing_changed(1000)]
+    print(table(rows))
     return {what: {"ms": milliseconds, "at most": limit} for what, milliseconds, limit in rows}
 
 
@@ -62,10 +73,16 @@ def report() -> tuple[str, list[Row]]:
     """The table as text, and its rows."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     rows = [write_ten_thousand(), reroute_among(500), overlay_of(2000), look_up(125), *redraw()]
-    lines = [f"{what:58} {milliseconds:8.2f} {limit:8.0f}" for what, milliseconds, limit in rows]
+    told = table(rows)
     if len(rows) == _HEADLESS:
-        lines.append("idle redraw: not measured, there is no display or no blender")
-    return "\n".join([f"{'what':58} {'ms':>8} {'at most':>8}", *lines]), rows
+        told += "\nidle redraw: not measured, there is no display or no blender"
+    return told, rows
+
+
+def table(rows: Sequence[Row]) -> str:
+    """Rows as text."""
+    lines = [f"{what:58} {milliseconds:8.2f} {limit:8.0f}" for what, milliseconds, limit in rows]
+    return "\n".join([f"{'what':58} {'ms':>8} {'at most':>8}", *lines])
 
 
 def write_ten_thousand() -> Row:
@@ -87,13 +104,7 @@ def write_ten_thousand() -> Row:
 
 def reroute_among(strokes: int) -> Row:
     """One reroute in a drawing of many strokes: engine, Grease Pencil and stored state."""
-    drawing = woven(24)
-    ends = iter(np.random.default_rng(0).permutation(len(drawing.junctions)).tolist())
-    while len(drawing.strokes) < strokes:
-        drawing = drawing.reroute(next(ends), ())
-    data, place = new_object("Woven").data, front_view(drawing.size)
-    key = state.add(data, drawing, place, "woven")
-    writing.write(data, 1, drawing, place, key)
+    drawing, data, key = cut_up(strokes)
     junctions = iter(drawing.junctions)
 
     def reroute() -> None:
@@ -121,9 +132,7 @@ def overlay_of(junctions: int) -> Row:
 def look_up(junctions: int) -> Row:
     """What a redraw looks up when nothing changed."""
     drawing = woven(int(np.ceil(np.sqrt(junctions))))
-    data, place = new_object("Still").data, front_view(drawing.size)
-    key = state.add(data, drawing, place, "still")
-    writing.write(data, 1, drawing, place, key)
+    data, _ = written(drawing, "still")
 
     def redraw() -> None:
         (found,) = state.keys_at(data, 1)
@@ -131,6 +140,72 @@ def look_up(junctions: int) -> Row:
 
     redraw()
     return f"look-ups of a redraw, {len(drawing.junctions)} junctions", _milliseconds(redraw), 1
+
+
+def colors_unchanged(strokes: int) -> Row:
+    """What a redraw of strokes in colours looks at, to find that nothing changed."""
+    drawing, data, _ = cut_up(strokes)
+    state.load(data, state.keys_at(data, 1)[0])
+
+    def redraw() -> None:
+        stroke_overlay.content_of(data, 1)
+
+    what = f"{len(drawing.strokes)} strokes in colors, a redraw without change"
+    return what, _milliseconds(redraw), 5
+
+
+def review_step(junctions: int) -> Row:
+    """Decide a junction, ask again around it, and find the next: what a key of a review does."""
+    drawing = woven(int(np.ceil(np.sqrt(junctions))))
+    data, key = written(drawing, "woven")
+    trace = state.load(data, key)
+    listed = iter(np.argsort(-trace.drawing.costs).tolist())
+
+    def step() -> None:
+        nonlocal key
+        index = next(listed)
+        here = state.load(data, key).drawing
+        pairs = here.place(index).alternatives[1].pairs
+        after = routing_change.change_routing(
+            data, 1, key, lambda d: d.reroute(index, pairs).ask_around(d)
+        )
+        key = after.key
+        halves = state.halves_at(data, 1, key)
+        JunctionTable.of(after.drawing, halves).listed("COST", doubtful=True, unlocked=True)
+
+    step()
+    return f"a step of a review among {len(drawing.junctions)} junctions", _milliseconds(step), 50
+
+
+def smoothing_changed(strokes: int) -> Row:
+    """Another *Smoothing*: strokes made anew, decisions and changes carried, all written."""
+    drawing, data, key = cut_up(strokes)
+    values = iter(np.linspace(0.31, 0.9, _RUNS + 1))
+
+    def change() -> None:
+        nonlocal key
+        settings = replace(drawing.settings, smoothing=float(next(values)))
+        key = retrace(data, 1, key, drawing.restroked(settings)).key
+
+    change()
+    return f"smoothing of {len(drawing.strokes)} strokes changed", _milliseconds(change), 300
+
+
+def cut_up(strokes: int) -> tuple[Drawing, bpy.types.ID, int]:
+    """A woven page whose lines end at junctions until there are that many; its data and key."""
+    drawing = woven(24)
+    ends = iter(np.random.default_rng(0).permutation(len(drawing.junctions)).tolist())
+    while len(drawing.strokes) < strokes:
+        drawing = drawing.reroute(next(ends), ())
+    return drawing, *written(drawing, "cut up")
+
+
+def written(drawing: Drawing, name: str) -> tuple[bpy.types.ID, int]:
+    """A new data-block with the drawing in it, and its key."""
+    data, place = new_object(name).data, front_view(drawing.size)
+    key = state.add(data, drawing, place, name)
+    writing.write(data, 1, drawing, place, key)
+    return data, key
 
 
 def redraw() -> list[Row]:

@@ -41,6 +41,7 @@ RUNS: dict[str, NamedRun] = {
         "lost_and_invented", "ink lost and invented on the benchmark's pages, or --scans"
     ),
     "speed": NamedRun("speed", "seconds by page and stage, growth, rivals", ("--pages", "all")),
+    "speed_against": NamedRun("speed_against", "processor time against an older checkout's"),
     "graph_stage": NamedRun("graph_stage", "the graph behind perfect centerlines", ("--ideal",)),
     "graph_limits": NamedRun("graph_limits", "every limit of the graph, halved and doubled"),
     "scan_limits": NamedRun("scan_limits", "limits of broad lines and rules, on held-out pages"),
@@ -51,6 +52,11 @@ RUNS: dict[str, NamedRun] = {
     "pencil_under_ink": NamedRun("pencil_under_ink", "pencil told from the ink over it"),
     "many_pages": NamedRun("many_pages", "hundreds of pages, killed and resumed"),
     "blender_costs": NamedRun("blender_costs", "writing, rerouting, overlay in Blender (bpy)"),
+    "artist": NamedRun(
+        "blender_costs",
+        "what is waited for in a review and while adjusting (bpy)",
+        function="seconds_of_an_artist",
+    ),
     "redraw": NamedRun("blender_costs", "an idle redraw in a window", function="in_window"),
     "extension": NamedRun("extension", "what the built ZIP weighs and costs to enable"),
     "junction_gallery": NamedRun("junction_gallery", "a picture of twelve kinds of junctions"),

@@ -23,11 +23,16 @@ class ProgressDisplay:
     """A progress bar on a terminal, nothing elsewhere; lines go above it, to the standard error.
 
     Trouble is always told. What became of an image is told on a terminal, or when asked for.
+
+    Args:
+        total: images that there are.
+        loudness: QUIET, USUAL or VERBOSE.
+        tells: USUAL says what became of an image even where there is no terminal.
     """
 
-    def __init__(self, total: int, loudness: int = USUAL) -> None:
+    def __init__(self, total: int, loudness: int = USUAL, *, tells: bool = False) -> None:
         terminal = sys.stderr is not None and sys.stderr.isatty()
-        self._tells = loudness > USUAL or (loudness == USUAL and terminal)
+        self._tells = loudness > USUAL or (loudness == USUAL and (terminal or tells))
         self._warns = loudness > QUIET
         self._stages = loudness > USUAL
         self._bar = _bar(total) if terminal and loudness > QUIET else None

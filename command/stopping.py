@@ -62,6 +62,10 @@ def by_signals() -> Iterator[None]:
             if before[number] is not signal.SIG_IGN:  # as under nohup
                 signal.signal(number, stop)
         yield
+    except Exception as error:
+        if _told.is_set():  # what is written in C makes another error of it, as while it is loaded
+            raise KeyboardInterrupt from error
+        raise
     finally:
         _told.clear()
         for number, handler in before.items():

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from involute.command.setting_options import manual_tables
 from involute.engine.formats import FORMATS
-from involute.engine.formats.picture_kinds import KINDS
+from involute.engine.formats.picture_kinds import KINDS, Kind
 from involute.operators.blend_file import BLEND
 
 MANUAL = Path(__file__).resolve().parent / "manual"
@@ -23,11 +23,16 @@ def formats() -> str:
 def pictures() -> str:
     """What pictures are read, and what to do with the others."""
     rows = [
-        f"| {kind.name} | {' '.join(f'`{suffix}`' for suffix in kind.suffixes)} | "
-        f"{f'not read: {kind.remedy}' if kind.remedy else kind.about or 'read'} |"
+        f"| {kind.name} | {' '.join(f'`{suffix}`' for suffix in kind.suffixes)} | {_read(kind)} |"
         for kind in KINDS
     ]
     return "\n".join(["| picture | files | |", "|---|---|---|", *rows])
+
+
+def _read(kind: Kind) -> str:
+    if kind.needs:
+        return f"{kind.about}, with the extra `pictures`; without it: {kind.remedy}"
+    return f"not read: {kind.remedy}" if kind.remedy else kind.about or "read"
 
 
 TABLES = {"pictures": pictures, "settings": manual_tables, "formats": formats}

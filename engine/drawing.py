@@ -17,7 +17,7 @@ import numpy as np
 from .errors import InvoluteError
 from .fidelity import Fidelity, fidelity, warnings
 from .graph.editing import Edits, Step, edited, place_on
-from .routing import around, checked_pairs, rescored, route, taught
+from .routing import around, checked_pairs, place_of_pairs, rescored, route, taught
 from .routing.cost import costs
 from .routing.lifting import goes_on
 from .routing.ways import Ways
@@ -91,7 +91,7 @@ class Drawing:
         if widths is None:
             widths = np.full(len(graph.points), scan.pen_width, np.float32)
         graph = replace(graph, widths=widths).scaled(scan.scale)
-        page = Page.of(graph, settings)
+        page = Page.of(graph, settings, scan.size)
         drawing = cls(
             graph=graph,
             routing=routing,
@@ -365,7 +365,7 @@ class Drawing:
         graph, routing, touched = edited(self.graph, self.routing, steps)
         if not steps:
             return self
-        page = Page.of(graph, self.settings)
+        page = Page.of(graph, self.settings, self.size)
         gone = [s for s in self.strokes if not touched.isdisjoint((s.branches >> 1).tolist())]
         branches = touched.union(*((s.branches >> 1).tolist() for s in gone))
         left = {id(s) for s in gone}
@@ -385,11 +385,35 @@ class Drawing:
         routing = rescored(self.graph, self.routing, pair_score, self._decided)
         return replace(self, routing=routing)
 
+    def heard(self, said: Array) -> Drawing:
+        """The places that are not locked, decided anew with what somebody says of their pairs.
+
+        The probabilities stay what the picture alone says: who decided against it is in doubt.
+
+        Args:
+            said: (K,) log-odds that each pair of `Routing.pairs` is one line; 0 = nothing is said.
+        """
+        routing, decided = self.routing, self._decided
+        where = np.unique(place_of_pairs(self.graph, routing.pairs[said != 0]))
+        where = where[~routing.locked[where]]
+        if not len(where):
+            return self
+        heard = rescored(self.graph, routing, routing.pair_score + said, decided, where)
+        ways = {place: heard.alternatives[place][0].pairs for place in where.tolist()}
+        first = len(self.graph.junctions)
+        on = goes_on(heard.pair_score[-len(self.graph.places) + first :], self.settings.corners)
+        for place in where[where >= first].tolist():
+            a, b = self._pairs_at_corners[place - first].tolist()
+            ways[place] = ((a, b),) if on[place - first] else ()
+        shown = rescored(self.graph, routing, routing.pair_score, {**decided, **ways}, where)
+        return self._with_ways(ways, shown)
+
     def ask_again(self) -> Drawing:
         """Route the junctions and corners that are not locked anew, given those that are."""
         if self.pencil:  # there, each junction is judged for itself
-            places = np.flatnonzero(~self.routing.locked)
-            return self._with_best(self.routing, places)
+            free = np.flatnonzero(~self.routing.locked).tolist()
+            ways = {place: self.routing.alternatives[place][0].pairs for place in free}
+            return self._with_ways(ways, self.routing)
         graph = self.graph.scaled(1 / self.scale)
         routing = route(graph, self.settings, self._decided)
         return replace(self._with_partner(routing.partner), routing=routing)
@@ -408,18 +432,9 @@ class Drawing:
         heard = heard[~self.routing.locked[heard]]
         if not len(heard):
             return self
-        return self._with_best(rescored(self.graph, self.routing, score, decided, heard), heard)
-
-    def _with_best(self, routing: Routing, places: Array) -> Drawing:
-        """The most probable way at some places, as a routing ranks them."""
-        partner = self.routing.partner.copy()
-        for place in places.tolist():
-            halves = self.graph.halves_of(self.graph.places[place])
-            partner[halves] = halves
-            for a, b in routing.alternatives[place][0].pairs:
-                partner[a], partner[b] = b, a
-        changed = self._with_partner(partner)
-        return replace(changed, routing=replace(routing, partner=changed.routing.partner))
+        routing = rescored(self.graph, self.routing, score, decided, heard)
+        ways = {place: routing.alternatives[place][0].pairs for place in heard.tolist()}
+        return self._with_ways(ways, routing)
 
     def restroked(self, settings: Settings) -> Drawing:
         """The same lines and decisions with the strokes made anew.
@@ -427,7 +442,7 @@ class Drawing:
         Args:
             settings: may differ in `STROKE_SETTINGS` only.
         """
-        page = Page.of(self.graph, settings)
+        page = Page.of(self.graph, settings, self.size)
         strokes = tuple(build(page, walk(self.routing.partner)))
         return replace(self, strokes=strokes, settings=settings, page=page)
 
@@ -446,7 +461,7 @@ class Drawing:
 
     @cached_property
     def _page(self) -> Page:
-        return self.page or Page.of(self.graph, self.settings)
+        return self.page or Page.of(self.graph, self.settings, self.size)
 
     def _with_locked(self, junctions: Iterable[int], value: bool) -> Drawing:
         locked = self.routing.locked.copy()
@@ -481,3 +496,14 @@ class Drawing:
         strokes = sorted([*kept, *made], key=lambda s: int(s.branches.min()) >> 1)
         routing = replace(self.routing, partner=np.asarray(partner, np.int32))
         return replace(self, strokes=tuple(strokes), routing=routing, page=self._page)
+
+    def _with_ways(self, ways: Mapping[int, tuple[Pair, ...]], routing: Routing) -> Drawing:
+        """Route some places so; all that is said of the routing but its partners is given."""
+        partner = self.routing.partner.copy()
+        for place, pairs in ways.items():
+            halves = self.graph.halves_of(self.graph.places[place])
+            partner[halves] = halves
+            for a, b in pairs:
+                partner[a], partner[b] = b, a
+        changed = self._with_partner(partner)
+        return replace(changed, routing=replace(routing, partner=changed.routing.partner))

@@ -18,6 +18,7 @@ from .values import Array, Stroke
 _CLEAR, _SOME = 0.5, 0.12  # ink: surely drawn; perhaps drawn
 _BESIDE = 2.0  # px of the input that ink may reach beyond a stroke, or a stroke beyond ink
 _SPECK = 5  # px; smaller pieces of ink are none
+_GAP = 1.5  # gaps of a dashed line; a longer stretch over paper is no gap
 _PLACES = 8  # as many are told, the largest first
 _BITS = 4  # of a pixel, as OpenCV draws
 _MUCH_LOST, _MUCH_INVENTED = 0.02, 0.02  # shares that are worth a warning
@@ -79,6 +80,11 @@ def fidelity(
     every = np.concatenate([np.zeros((0, 2)), *along])
     column, row = np.clip(np.rint(every).astype(int), 0, np.array(ink.shape[::-1]) - 1).T
     over = paper[row, column]
+    stop = np.cumsum([len(line) for line in along])
+    for stroke, line, end in zip(strokes, along, stop, strict=True):
+        if stroke.dash:
+            own = slice(end - len(line), end)
+            over[own] = _longer(over[own], _GAP * stroke.dash[1] / scale)
     invented = np.zeros(ink.shape, bool)
     invented[row[over], column[over]] = True
     return Fidelity(
@@ -171,6 +177,13 @@ def _every_pixel(line: Array) -> Array:
     arc = np.concatenate([[0.0], np.cumsum(step)])
     at = np.arange(0.0, arc[-1] + 1e-9, 1.0)
     return np.stack([np.interp(at, arc, line[:, k]) for k in (0, 1)], 1)
+
+
+def _longer(over: Array, least: float) -> Array:
+    """(N,) bool: what lies in a run of at least so many."""
+    run = np.concatenate([[0], np.cumsum(over[1:] != over[:-1])])
+    found: Array = over & (np.bincount(run)[run] >= least)
+    return found
 
 
 def _places(wrong: Array, scale: float) -> tuple[Box, ...]:

@@ -171,6 +171,15 @@ class Settings:
         tip="Don't trace what lies beyond the sheet in a photograph: cloth, a desk, a finger",
         off="trace what lies beyond the sheet in a photograph too",
     )
+    straighten: bool = _switch(
+        False,
+        group=WHAT,
+        stage="scan",
+        label="Straighten Sheet",
+        tip="Take the perspective out of a photographed sheet, as seen from straight above",
+        more="Where all four corners of the sheet are sure; the result says so. The drawing no "
+        "longer lies on the lines of the photo",
+    )
     rules: bool = _switch(
         True,
         group=WHAT,
@@ -224,6 +233,14 @@ class Settings:
         tip="Keep dots of full ink about as wide as the pen, which are no specks",
         off="drop small dots as specks",
         more="Dots wider than three quarters of *Specks* times the pen",
+    )
+    dashes: bool = _switch(
+        False,
+        group=CLEAN,
+        stage="graph",
+        label="Join Dashes",
+        tip="Make one stroke of a dashed or dotted line, and note how it is dashed",
+        more="From four even dashes or dots on; they run on through junctions. SVG shows the gaps",
     )
     smoothing: float = _number(
         0.3,

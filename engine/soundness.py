@@ -107,6 +107,7 @@ def check_graph(graph: PlanarGraph) -> None:
         ("widths", "f", (count,)),
         ("strength", "f", (count,)),
         ("colors", "u", (count, 3)),
+        ("bare", "b", (count,)),
     ):
         values = getattr(graph, name)
         if values is not None:

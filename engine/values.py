@@ -128,6 +128,7 @@ class PlanarGraph:
     widths: (P,) float32 full line width in px, or None before it was measured.
     strength: (P,) float32 darkness of the ink in [0, 1], or None.
     colors: (P, 3) uint8 sRGB of the ink, or None.
+    bare: (P,) bool, where a line goes on between its dashes or dots, over bare paper; or None.
     clues: (C, K) float32 what the picture says about a lift at each corner (`graph.lifts`), in
         order of `corners`; or None.
 
@@ -142,6 +143,7 @@ class PlanarGraph:
     strength: Array | None = None
     colors: Array | None = None
     clues: Array | None = None
+    bare: Array | None = None
 
     @staticmethod
     def empty() -> PlanarGraph:
@@ -162,6 +164,14 @@ class PlanarGraph:
         times = np.float32(factor)
         widths = None if self.widths is None else self.widths * times
         return replace(self.moved(lambda points: points * times), widths=widths)
+
+    def measures(self, points: Array) -> dict[str, Array | None]:
+        """What was measured at some of the points, by the name of its field.
+
+        points: index of points, or (P,) bool.
+        """
+        found = {name: getattr(self, name) for name in ("widths", "strength", "colors", "bare")}
+        return {name: None if of is None else of[points] for name, of in found.items()}
 
     @property
     def branch_count(self) -> int:
@@ -263,6 +273,7 @@ class Stroke:
     branches: (n,) int32 half-branches in walking order; h means branch h >> 1, walked from its
         start when h is even, from its end when h is odd.
     handles: (N, 2, 2) float32 left and right Bezier handle of every anchor, or None (polyline).
+    dash: of a dashed or dotted line how long its dashes and the gaps between are, px; or None.
     """
 
     points: Array
@@ -272,6 +283,7 @@ class Stroke:
     color: tuple[int, int, int]
     branches: Array
     handles: Array | None = None
+    dash: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,7 +7,8 @@ pencil          lines and the pencil strokes that they were made of
 view            what is looked at and where it lies on the screen; `ui` draws it
 grease_pencil   the data layer: it alone touches strokes
 blend_file, blender_command   .blend files for the command line, which Blender runs as well
-job, language   threads that Blender does not wait for; words in the user's language
+job                             threads that Blender does not wait for
+language, engine_sentences      words in the user's language; those of the engine
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ _VERBS = (
     "tracing.trace",
     "tracing.trace_again",
     "tracing.import_scan",
+    "tracing.paste",
     "tracing.use_defaults",
     "tracing.use_preset",
     "sequences.trace_frames",

@@ -4,8 +4,13 @@ from __future__ import annotations
 
 import threading
 import traceback
+from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 from ..engine import Cancelled, InvoluteError
+
+if TYPE_CHECKING:
+    from ..command.batch import Outcome
 
 
 class Job:
@@ -13,6 +18,7 @@ class Job:
 
     stage, fraction: where it is, for progress bars; counts fill the places in `stage`.
     problem: the sentence that says why all of it failed.
+    heard: is told of each picture that is done, by its name, and what became of it.
     """
 
     def __init__(self, stage: str) -> None:
@@ -21,7 +27,13 @@ class Job:
         self.fraction = 0.0
         self.cancelled = False
         self.problem = ""
+        self.heard: Callable[[str, Outcome], None] | None = None
         self._thread = threading.Thread(target=self.run, name="involute", daemon=True)
+
+    @property
+    def pictures(self) -> int:
+        """How many there are to trace."""
+        raise NotImplementedError
 
     def work(self) -> None:
         """Do it; may raise."""

@@ -73,12 +73,16 @@ def _module(base: Path) -> Iterator[Path]:
 def test_every_wheel_that_is_shipped_is_imported() -> None:
     wheels = tomllib.loads((package.ROOT / "blender_manifest.toml").read_text("utf-8"))["wheels"]
     code = "\n".join(f.read_text("utf-8") for f in package._shipped_files() if f.suffix == ".py")
-    modules = {"networkx": "networkx", "opencv_contrib_python_headless": "cv2"}
+    modules = {
+        "networkx": "networkx",
+        "opencv_contrib_python_headless": "cv2",
+        "svgelements": "svgelements",
+    }
     for wheel in wheels:
         name = modules[Path(wheel).name.split("-")[0]]
         assert re.search(rf"^ *(import|from) {name}\b", code, re.M)
     for platform in package.PLATFORMS:
-        assert sum(package._fits(Path(w).name, platform) for w in wheels) == 2
+        assert sum(package._fits(Path(w).name, platform) for w in wheels) == 3
 
 
 def test_a_runtime_has_a_pinned_wheel_for_both_pythons_wherever_it_exists() -> None:

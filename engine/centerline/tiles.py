@@ -19,6 +19,7 @@ import numpy as np
 from ..values import Array
 
 BLOCK = 32  # px; tiles begin and end at multiples of it (and of the network's stride)
+BEYOND = 16  # px of paper around the page: a network answers differently at the rim of what it sees
 CONTEXT = 96  # px that a network sees beyond a tile, so that the tile's size makes no difference
 # px; longest side of a window, which bounds the memory (540 MB, or 240 MB on pages that are large
 # themselves). Windows of 1536 px look at 14 to 56 % less than those of 1024 px on A4 pages, and a
@@ -47,7 +48,8 @@ class Tile:
         return (self.bottom - self.top) * (self.right - self.left)
 
     def window(self, active: Array, height: int, width: int) -> tuple[slice, slice]:
-        """Rows and columns of the tile and its context, on a page of the given size.
+        """Rows and columns of the tile and its context, on a page of the given size and a rim of
+        BEYOND px of paper around it.
 
         Where all that is white paper, less of it will do.
         """
@@ -62,8 +64,8 @@ class Tile:
         before = CONTEXT if active[rows, columns.start : left].any() else _PAPER_CONTEXT
         after = CONTEXT if active[rows, right : columns.stop].any() else _PAPER_CONTEXT
         return (
-            slice(max(0, self.top - above), min(height, self.bottom + below)),
-            slice(max(0, self.left - before), min(width, self.right + after)),
+            slice(max(-BEYOND, self.top - above), min(height + BEYOND, self.bottom + below)),
+            slice(max(-BEYOND, self.left - before), min(width + BEYOND, self.right + after)),
         )
 
 
@@ -90,16 +92,15 @@ def shift_of(ink: Array) -> tuple[int, int]:
 
 
 def moved(ink: Array, rows: slice, columns: slice, shift: tuple[int, int]) -> Array:
-    """A part of the page as it lies when `shift` rows and columns of paper are put before it."""
-    down, right = shift
-    part = ink[
-        max(0, rows.start - down) : max(0, rows.stop - down),
-        max(0, columns.start - right) : max(0, columns.stop - right),
-    ]
-    above, before = max(0, down - rows.start), max(0, right - columns.start)
-    if above or before:
-        part = np.pad(part, ((above, 0), (before, 0)))
-    return np.ascontiguousarray(part)
+    """A part of the page as it lies when `shift` rows and columns of paper are put before it;
+    beyond the page there is paper."""
+    spans, around = [], []
+    for span, before, side in zip((rows, columns), shift, ink.shape, strict=True):
+        start, stop = span.start - before, span.stop - before
+        spans.append(slice(max(0, start), max(0, stop)))
+        around.append((max(0, -start), max(0, stop - side)))
+    part = ink[spans[0], spans[1]]
+    return np.ascontiguousarray(np.pad(part, around) if np.any(around) else part)
 
 
 def active_blocks(ink: Array, shift: tuple[int, int] = (0, 0)) -> Array:
@@ -156,8 +157,10 @@ def _cover(active: Array, largest: int) -> list[tuple[int, int, int, int]]:
 
 
 def _window(start: int, stop: int, length: int) -> int:
-    """The extent in px of a tile with its context, as far as the page reaches; given in blocks."""
-    return min(length * BLOCK, stop * BLOCK + CONTEXT) - max(0, start * BLOCK - CONTEXT)
+    """The extent in px of a tile with its context, as far as the page and the paper around it
+    reach; given in blocks."""
+    end = min(length * BLOCK + BEYOND, stop * BLOCK + CONTEXT)
+    return end - max(-BEYOND, start * BLOCK - CONTEXT)
 
 
 def _trim(active: Array, box: tuple[int, int, int, int]) -> tuple[int, int, int, int] | None:
@@ -212,6 +215,8 @@ def look(
     infer: Callable[[Array], Iterable[Array]],
     maps: Sequence[Array | None],
     tick: Callable[[float], None],
+    shift: tuple[int, int] | None = None,
+    wanted: Array | None = None,
 ) -> None:
     """Run a network over all inked blocks of a page and write its answers into the maps.
 
@@ -222,11 +227,14 @@ def look(
         maps: as many arrays (H, W) or (H / 2, W / 2), float32, zero, and left so on white paper;
             None = not wanted.
         tick: called with the fraction that is done; what it raises passes through.
+        shift: rows and columns of paper before the page; None = those of `shift_of`.
+        wanted: which blocks are to be answered, of the page so shifted; None = all with ink.
     """
-    shift = shift_of(ink)
+    shift = shift_of(ink) if shift is None else shift
     active = active_blocks(ink, shift)
+    asked = active if wanted is None else active & wanted
     height, width = ink.shape[0] + shift[0], ink.shape[1] + shift[1]
-    tiles = plan(active)
+    tiles = plan(asked)
     total = sum(tile.area for tile in tiles)
     done = 0
     for tile in tiles:
@@ -236,7 +244,7 @@ def look(
         # The tile without the paper that was put before the page, and what lies beyond it.
         top, left = max(tile.top, shift[0]), max(tile.left, shift[1])
         bottom, right = min(tile.bottom, height), min(tile.right, width)
-        inked = active[np.arange(top, bottom)[:, None] // BLOCK, np.arange(left, right) // BLOCK]
+        inked = asked[np.arange(top, bottom)[:, None] // BLOCK, np.arange(left, right) // BLOCK]
         corner = top - rows.start, left - columns.start
         place = top - shift[0], left - shift[1]
         for answer, target in zip(answers, maps, strict=True):

@@ -23,6 +23,10 @@ _WIDE, _WIDEST = (3.2, 7.0), (5.0, 10.0)  # diameters in pen widths, and at leas
 _NARROWER = 0.7  # of the width from which on it is an area, that the rest of it has at least
 _REACH = 2.0  # widest diameters; how far an area goes on from its widest parts
 _LONG, _EVEN, _STROKE = 4.0, 0.8, 16.0  # a line is so many widths long, so even, and so wide in px
+_WHOLE = 0.98  # of a piece of ink that is area: nothing is left of it
+_LETTER, _LETTERS = 0.3, 3  # of the area in a black box, that one letter takes at most; how many
+_PAINTED, _INKED = 0.4, 0.55  # of a box's ink that is area, of a box that is ink, at least
+_SQUARE = 0.92  # of the rectangle around it, that a box takes up
 _FRINGE = 1.5  # px; how far the soft edge of an area reaches
 _DETAIL = 0.1  # px; how far an outline may stray when points are saved
 
@@ -54,6 +58,7 @@ def split_solids(
     area = _areas(dark, wide / 2, widest / 2, longest)
     if not area.any():
         return scan, []
+    area |= _rest_of_boxes(dark, area, wide / 2)
     near = _distance_to(area > 0) <= _FRINGE
     return replace(scan, ink=np.where(near, np.float32(0), scan.ink)), _outlines(area, soft)
 
@@ -86,6 +91,61 @@ def _areas(dark: Array, wide: float, widest: float, stroke: float) -> Array:
     is_line = (size > _LONG * width**2) & (mean_depth > _EVEN * deepest) & (width < stroke)
     is_area = (deepest > widest) & ~is_line
     return (painted & is_area[owner]).astype(np.uint8)
+
+
+def _rest_of_boxes(dark: Array, area: Array, wide: float) -> Array:
+    """The dark pixels between the letters of black boxes, (H, W) uint8, 0 or 1.
+
+    What is left of such a box between and around white lettering is too narrow to be an area by
+    itself. With its letters filled in, a box is a solid rectangle; most of it is dark, and much of
+    that wide enough to be an area. Hatching, hair and hats are not.
+    """
+    rest = np.zeros_like(area)
+    count, label, stats, _ = cv2.connectedComponentsWithStats(dark)
+    much = np.bincount(label[area > 0], minlength=count)
+    share = much / np.maximum(stats[:, cv2.CC_STAT_AREA], 1)
+    for piece in np.flatnonzero((share > 0) & (share < _WHOLE)).tolist():
+        x, y, width, height = stats[piece, :4].tolist()
+        there = np.s_[y : y + height, x : x + width]
+        own = np.pad((label[there] == piece).view(np.uint8), 1)
+        _, white, sizes, _ = cv2.connectedComponentsWithStats(1 - own, connectivity=4)
+        small = sizes[:, cv2.CC_STAT_AREA] < _LETTER * much[piece]
+        small[[0, white[0, 0]]] = False
+        letters = np.where(small[white], white, 0)
+        if np.count_nonzero(small) < _LETTERS:
+            continue
+        side = 2 * int(np.ceil(wide)) + 1
+        disc = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (side, side))
+        # With what a letter encloses.
+        around, _ = cv2.findContours(
+            (letters > 0).view(np.uint8), cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE
+        )
+        whole = cv2.drawContours(own.copy(), around, -1, 1, cv2.FILLED)
+        solid = cv2.morphologyEx(whole, cv2.MORPH_OPEN, disc)
+        boxes, box, _, _ = cv2.connectedComponentsWithStats(solid)
+        inked, painted = (np.pad(of[there], 1) > 0 for of in (dark, area))
+        for number in range(1, boxes):
+            inside = box == number
+            if _is_box(inside, inked, painted & inside, letters):
+                rest[there] |= (inside & inked)[1:-1, 1:-1].view(np.uint8)
+    return rest
+
+
+def _is_box(inside: Array, inked: Array, painted: Array, letters: Array) -> bool:
+    """Whether what is solid with its letters is a box.
+
+    Args:
+        inside, inked, painted: (H, W) bool; what is to be judged, what is dark, what is an area.
+        letters: (H, W) the number of the white piece that each pixel is in, 0 for none.
+    """
+    whole, dark = np.count_nonzero(inside), np.count_nonzero(inside & inked)
+    if np.count_nonzero(painted) < _PAINTED * dark or dark < _INKED * whole:
+        return False
+    if len(np.unique(letters[inside])) <= _LETTERS:
+        return False
+    outlines, _ = cv2.findContours(inside.view(np.uint8), cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE)
+    _, sides, _ = cv2.minAreaRect(np.concatenate(outlines))
+    return bool(whole > _SQUARE * (sides[0] + 1) * (sides[1] + 1))
 
 
 def _distance_to(place: Array) -> Array:

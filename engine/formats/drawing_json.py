@@ -51,7 +51,7 @@ def dumps(drawing: Drawing) -> str:
         "dpi": drawing.dpi,
         "settings": drawing.settings.as_dict(),
         "seconds": dict(drawing.seconds),
-        "graph": {f.name: _packed(getattr(drawing.graph, f.name)) for f in fields(PlanarGraph)},
+        "graph": _graph_tables(drawing.graph),
         "routing": {
             "partner": _packed(routing.partner),
             "pairs": _packed(routing.pairs),
@@ -76,7 +76,16 @@ def dumps(drawing: Drawing) -> str:
     return json.dumps(document, separators=(",", ":"))
 
 
+def _graph_tables(graph: PlanarGraph) -> dict[str, Any]:
+    tables = {f.name: _packed(getattr(graph, f.name)) for f in fields(PlanarGraph)}
+    if graph.bare is None:  # older programs don't know it
+        del tables["bare"]
+    return tables
+
+
 def _stroke_tables(strokes: Sequence[Stroke]) -> dict[str, Any]:
+    dashed = [s.dash or (0.0, 0.0) for s in strokes]
+    dash = {"dash": _packed(np.array(dashed, np.float32))} if any(map(any, dashed)) else {}
     return {
         "points": _joined([s.points for s in strokes], (0, 2)),
         "offsets": _packed(_offsets([len(s.points) for s in strokes])),
@@ -88,6 +97,7 @@ def _stroke_tables(strokes: Sequence[Stroke]) -> dict[str, Any]:
         "branch_offsets": _packed(_offsets([len(s.branches) for s in strokes])),
         "curved": _packed(np.array([s.handles is not None for s in strokes], bool)),
         "handles": _joined([s.handles for s in strokes if s.handles is not None], (0, 2, 2)),
+        **dash,
     }
 
 
@@ -193,9 +203,13 @@ def _strokes(data: dict[str, Array]) -> list[Stroke]:
     count = len(data["closed"])
     starts = _starts(data["offsets"], count, len(data["points"]), "the points of the strokes")
     first = _starts(data["branch_offsets"], count, len(data["branches"]), "the strokes' branches")
-    for name, shape in (("closed", (count,)), ("curved", (count,)), ("color", (count, 3))):
+    dash = data.get("dash", np.zeros((count, 2), np.float32))
+    tables = {"closed": (count,), "curved": (count,), "color": (count, 3)}
+    for name, shape in tables.items():
         if data[name].shape != shape:
             raise UnsoundError(f"the table '{name}' of the strokes has not their number")
+    if dash.shape != (count, 2) or not (np.isfinite(dash) & (dash >= 0)).all():
+        raise UnsoundError("the dashes of the strokes are no lengths")
     curve = _offsets(np.diff(starts) * data["curved"].astype(bool)).tolist()
     _starts(curve, count, len(data["handles"]), "the handles of the strokes")
     return [
@@ -207,14 +221,16 @@ def _strokes(data: dict[str, Array]) -> list[Stroke]:
             color=tuple(color),
             branches=data["branches"][first[i] : first[i + 1]],
             handles=data["handles"][curve[i] : curve[i + 1]] if curved else None,
+            dash=(mark, gap) if gap else None,
         )
-        for i, (low, high, closed, color, curved) in enumerate(
+        for i, (low, high, closed, color, curved, (mark, gap)) in enumerate(
             zip(
                 starts[:-1],
                 starts[1:],
                 data["closed"].astype(bool).tolist(),
                 data["color"].tolist(),
                 data["curved"].astype(bool).tolist(),
+                dash.tolist(),
                 strict=True,
             )
         )

@@ -8,6 +8,8 @@ from its name alone.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
+from importlib.util import find_spec
 from pathlib import Path
 
 
@@ -19,6 +21,8 @@ class Kind:
     starts: the first bytes of its files; "?" stands for any byte.
     remedy: what to do with a kind that is not read; None = it is read.
     about: what of it is read, for the manual.
+    needs: the module of a library that reads it, where Involute comes without; then it is read when
+        that is there, and `remedy` is what to do when it is not.
     """
 
     name: str
@@ -26,6 +30,13 @@ class Kind:
     starts: tuple[bytes, ...]
     remedy: str | None = None
     about: str = ""
+    needs: str | None = None
+
+    @cached_property
+    def is_read(self) -> bool:
+        if self.needs:
+            return find_spec(self.needs) is not None
+        return self.remedy is None
 
 
 _SAVE = "save it as PNG or TIFF first"
@@ -55,14 +66,25 @@ KINDS = (
         (".pdf",),
         (b"%PDF",),
         "save its pages as PNG or TIFF first, at 300 dpi (pdftoppm -r 300 -png does it)",
+        about="every page, at 300 dpi",
+        needs="pypdfium2",
     ),
     Kind(
         "HEIC",
         (".heic", ".heif"),
         tuple(b"????ftyp" + brand for brand in (b"heic", b"heix", b"hevc", b"mif1", b"msf1")),
         "save it as PNG or JPEG first; a phone can also be set to take JPEG",
+        about="the first picture",
+        needs="pillow_heif",
     ),
-    Kind("OpenEXR", (".exr",), (b"\x76\x2f\x31\x01",), _SAVE),
+    Kind(
+        "OpenEXR",
+        (".exr",),
+        (b"\x76\x2f\x31\x01",),
+        _SAVE,
+        about="RGB, RGBA or Y; linear light is taken as such",
+        needs="OpenEXR",
+    ),
     Kind("JPEG XL", (".jxl",), (b"\xff\x0a", b"\0\0\0\x0cJXL "), _SAVE),
     Kind("Radiance", (".hdr",), (b"#?RADIANCE", b"#?RGBE"), _SAVE),
     Kind(
@@ -77,7 +99,7 @@ KINDS = (
     Kind("Clip Studio", (".clip", ".lip"), (b"CSFCHUNK",), _SAVE),
     Kind("camera raw", (".dng", ".cr2", ".nef", ".arw"), (), _SAVE),
 )
-SUFFIXES = tuple(suffix for kind in KINDS if kind.remedy is None for suffix in kind.suffixes)
+SUFFIXES = tuple(suffix for kind in KINDS if kind.is_read for suffix in kind.suffixes)
 """Of the pictures that are read, in the order of KINDS."""
 
 
@@ -86,12 +108,15 @@ def kind_of(head: bytes, path: Path) -> Kind | None:
     for kind in KINDS:
         if any(_begins(head, start) for start in kind.starts):
             return kind
-    return next((k for k in KINDS if not k.starts and path.suffix.lower() in k.suffixes), None)
+    suffix = path.suffix.lower()
+    if not suffix and _may_be_targa(head):  # out of a pipe
+        suffix = ".tga"
+    return next((k for k in KINDS if not k.starts and suffix in k.suffixes), None)
 
 
 def read_kinds() -> str:
     """The names of what is read, for a sentence."""
-    *names, last = (kind.name for kind in KINDS if kind.remedy is None)
+    *names, last = (kind.name for kind in KINDS if kind.is_read)
     return f"{', '.join(names)} or {last}"
 
 
@@ -101,8 +126,20 @@ def why_left_out(path: Path) -> str | None:
     found = [kind for kind in KINDS if suffix in kind.suffixes]
     if not found:
         return "not a picture"
-    remedy = found[0].remedy
-    return f"{found[0].name} is not read: {remedy}" if remedy else None
+    kind = found[0]
+    return None if kind.is_read else f"{kind.name} is not read: {kind.remedy}"
+
+
+def _may_be_targa(head: bytes) -> bool:
+    """Whether a header has what each Targa has: numbers of a few kinds, and a size."""
+    return (
+        len(head) >= 18
+        and head[1] in (0, 1)
+        and head[2] in (1, 2, 3, 9, 10, 11)
+        and head[16] in (8, 15, 16, 24, 32)
+        and any(head[12:14])
+        and any(head[14:16])
+    )
 
 
 def _begins(head: bytes, start: bytes) -> bool:

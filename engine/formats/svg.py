@@ -165,6 +165,11 @@ def _path(index: int, stroke: Stroke, kind: str = "stroke", said_by: Sequence[in
         parts.append(f'data-said-by="{" ".join(map(str, said_by))}"')
     if stroke.closed:
         parts.append('data-closed="1"')
+    if stroke.dash:
+        mark, gap = stroke.dash
+        drawn = max(mark - float(widths.mean()), 0.01)  # its round ends reach beyond it
+        parts.append(f'stroke-dasharray="{drawn:.4g} {mark + gap - drawn:.4g}"')
+        parts.append(f'data-dash="{_thousandths(np.array(stroke.dash))}"')
     if opacity.min() < 1:
         parts.append(f'stroke-opacity="{float(opacity.mean()):.3g}"')
         parts.append(f'data-opacity="{_thousandths(opacity)}"')
@@ -212,7 +217,15 @@ def _stroke(attributes: dict[str, str], index: int) -> Stroke:
         color=tuple(bytes.fromhex(color if len(color) == 6 else "000000")),  # type: ignore[arg-type]
         branches=np.array([2 * index], np.int32),
         handles=handles,
+        dash=_dash(attributes.get("data-dash")),
     )
+
+
+def _dash(text: str | None) -> tuple[float, float] | None:
+    if text is None:
+        return None
+    mark, gap = (_number(part) / 1000 for part in text.split())
+    return mark, gap
 
 
 def _floats(text: str) -> Array:

@@ -155,8 +155,7 @@ def join_ends(graph: PlanarGraph, routing: Routing, a: int, b: int) -> tuple[Pla
 
 
 def _ordered(graph: PlanarGraph, order: Array) -> PlanarGraph:
-    measured = {name: getattr(graph, name) for name in ("widths", "strength", "colors")}
-    taken: dict[str, Any] = {name: None if v is None else v[order] for name, v in measured.items()}
+    taken: dict[str, Any] = graph.measures(order)
     return replace(graph, points=graph.points[order], **taken)
 
 

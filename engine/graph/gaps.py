@@ -7,6 +7,7 @@ hatching are farther apart than that. (The paper leaves gaps to its network.)
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -53,13 +54,24 @@ def bridge_gaps(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> P
     a, b, cost = a[fits], b[fits], (gap + 2 * aside)[fits]
     best = mutual(a, b, cost, len(free))
     links = graph.half_vertex[free[np.stack([a[best], b[best]], -1)]]
-    return linked(graph, links) if len(links) else graph
+    return bridged(graph, links, list(graph.vertices[links])) if len(links) else graph
+
+
+def bridged(graph: PlanarGraph, links: Array, lines: Sequence[Array]) -> PlanarGraph:
+    """An unmeasured graph with one branch more for each link (K, 2) of two vertices: a line (N, 2)
+    from one to the other."""
+    offsets = graph.offsets[-1] + np.cumsum([len(line) for line in lines])
+    return replace(
+        graph,
+        points=np.concatenate([graph.points, *lines]).astype(np.float32),
+        offsets=np.concatenate([graph.offsets, offsets]).astype(np.int32),
+        ends=np.concatenate([graph.ends, links]).astype(np.int32),
+    )
 
 
 def linked(graph: PlanarGraph, links: Array) -> PlanarGraph:
     """The graph with a straight branch between the vertices of each link, (K, 2); it has the
     widths and the ink of what ends there."""
-    offsets = graph.offsets[-1] + 2 * np.arange(1, len(links) + 1)
     tip = np.zeros(len(graph.vertices), np.int64)
     tip[graph.ends.ravel()] = np.stack([graph.offsets[:-1], graph.offsets[1:] - 1], 1).ravel()
 
@@ -67,10 +79,7 @@ def linked(graph: PlanarGraph, links: Array) -> PlanarGraph:
         return None if values is None else np.concatenate([values, values[tip[links.ravel()]]])
 
     return replace(
-        graph,
-        points=np.concatenate([graph.points, graph.vertices[links].reshape(-1, 2)]),
-        offsets=np.concatenate([graph.offsets, offsets]).astype(np.int32),
-        ends=np.concatenate([graph.ends, links]).astype(np.int32),
+        bridged(graph, links, list(graph.vertices[links])),
         widths=longer(graph.widths),
         strength=longer(graph.strength),
         colors=longer(graph.colors),

@@ -190,13 +190,12 @@ def split(graph: PlanarGraph, at: Array) -> PlanarGraph:
     tail[inner], tail[~inner] = fresh, graph.ends[:, 1]
     opens = np.concatenate([[False], inner[:-1]])
     head[opens], head[~opens] = fresh, graph.ends[:, 0]
-    measured = (graph.widths, graph.strength, graph.colors)
     return PlanarGraph(
         np.concatenate([graph.vertices, graph.points[at]]),
         graph.points[where],
         np.concatenate([[0], stops + np.searchsorted(at, stops - 1)]).astype(np.int32),
         np.stack([head, tail], -1).astype(np.int32),
-        *(None if values is None else values[where] for values in measured),
+        **graph.measures(where),
     )
 
 

@@ -19,6 +19,7 @@ from typing import Any
 
 MEASURED = "python -m benchmarks.graph_limits"
 _HAIRPINS = "tests/engine/test_hairpins.py"
+_DASHES = "tests/engine/test_dashes.py"
 
 
 def _limit(value: float, unit: str, why: str, source: str = MEASURED) -> Any:
@@ -149,6 +150,23 @@ class Limits:
     gap_least: float = _limit(3.0, "px", "are bridged however fine the pen is")
     gap_straight: float = _limit(35.0, "degrees", "that two ends may turn to meet")
     gap_aside: float = _limit(0.35, "share", "of a gap that its two ends may lie apart sideways")
+    # dashed and dotted lines
+    dash_bare: float = _limit(
+        0.35, "share", "of the most ink on a line; less is a gap in it", _DASHES
+    )
+    dash_gap: float = _limit(
+        8.0, "pen widths", "between two dashes or dots of a line, at most", _DASHES
+    )
+    dash_turn: float = _limit(30.0, "degrees", "that a dash may point beside the next one", _DASHES)
+    dash_bend: float = _limit(
+        50.0, "degrees", "that a line of dots may turn at one of them", _DASHES
+    )
+    dash_dot: float = _limit(1.5, "pen widths", "a shorter mark has no direction: a dot", _DASHES)
+    dash_uneven: float = _limit(
+        0.35, "share", "that gaps, and dashes with their gap, may differ", _DASHES
+    )
+    dash_most: float = _limit(0.8, "share", "of the dashes of a line that are alike", _DASHES)
+    dash_fewest: int = _limit(3, "times", "a gap of a dashed line comes, at least", _DASHES)
     # smoothing and planarity
     smooth_rounds: int = _limit(10, "times", "all points move with the strongest smoothing")
     crossing_same: float = _limit(

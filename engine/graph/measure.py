@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import cv2
 import numpy as np
 
 from ..arrays.sampling import sample
@@ -14,7 +15,12 @@ from .limits import LIMITS
 from .topology import lengths
 
 _STEP = 0.5  # px between the samples across a line
-_DOT = 1.0  # px; a shorter branch is a dot, as `skeleton_graph` makes them
+_AROUND = 12  # points on either side of which one is the middle of a dash
+_FULL = 0.85  # share of the most ink so near that the middle of a dash has
+_SHORT = 1.0  # px; a shorter branch is a dot, as `skeleton_graph` makes them ...
+# ... and so is, in pen widths, one that hangs on nothing. Of 216 dots of 1 to 2.6 pens, 8 of 10
+# came out 18 to 23 % too narrow as the network measures them; 6 % as the ink does.
+_DOT = 0.5  # pen widths
 
 
 def measure(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> PlanarGraph:
@@ -29,31 +35,72 @@ def measure(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> Plana
     if maps.half_width is not None:
         widths = 2 * sample(maps.half_width, graph.points)
         # Of a dot the network sees half; nothing where another provider has seen the line.
-        dot = np.repeat(lengths(graph) < _DOT, np.diff(graph.offsets))
-        unknown = np.isnan(widths) | dot
-        if unknown.any():
-            widths = np.where(unknown, _widths(graph, scan), widths)
+        unknown = np.isnan(widths) | np.repeat(_dots(graph, scan), np.diff(graph.offsets))
+        asked = np.flatnonzero(unknown)
+        if len(asked):
+            widths[asked] = _widths(graph, scan, asked)
     else:
-        widths = _widths(graph, scan)
+        widths = _widths(graph, scan, np.arange(len(graph.points)))
     widths = np.where(np.isfinite(widths) & (widths > 0), widths, scan.pen_width)
-    widths = np.clip(_agreed(graph, widths), 0.5, max(LIMITS.width_widest * scan.pen_width, 8.0))
-    strength = np.clip(_agreed(graph, sample(scan.ink, graph.points)), 0.0, 1.0)
+    bare = over_paper(graph, scan) if settings.dashes else None
+    near = slice(None) if bare is None else _nearest_ink(graph, scan, bare)
+    widest = max(LIMITS.width_widest * scan.pen_width, 8.0)
+    widths = np.clip(_agreed(graph, widths[near]), 0.5, widest).astype(np.float32)
+    strength = np.clip(_agreed(graph, sample(scan.ink, graph.points)[near]), 0.0, 1.0)
     colors = None
     if scan.color is not None:
-        colors = np.rint(_agreed(graph, sample(scan.color, graph.points))).astype(np.uint8)
+        colors = _agreed(graph, sample(scan.color, graph.points)[near])
+        colors = np.rint(colors).astype(np.uint8)
     return replace(
-        graph, widths=widths.astype(np.float32), strength=strength.astype(np.float32), colors=colors
+        graph, widths=widths, strength=strength.astype(np.float32), colors=colors, bare=bare
     )
 
 
-def _widths(graph: PlanarGraph, scan: Scan) -> Array:
-    """(P,) width of the ink across the line: to half the darkness of its middle on either side."""
+def over_paper(graph: PlanarGraph, scan: Scan) -> Array:
+    """(P,) bool: where a branch runs over bare paper, compared with its ink and that of others."""
+    ink = sample(scan.ink, graph.points)
+    most = np.maximum.reduceat(ink, graph.offsets[:-1])
+    most = np.maximum(most, np.median(most) / 2)
+    bare: Array = ink < LIMITS.dash_bare * np.repeat(most, np.diff(graph.offsets))
+    return bare
+
+
+def _nearest_ink(graph: PlanarGraph, scan: Scan, bare: Array) -> Array:
+    """(P,) for each point of a dashed line the nearest one on the full ink of a dash; for all other
+    points themselves."""
+    ink = sample(scan.ink, graph.points)
+    around = cv2.dilate(ink[None], np.ones((1, 2 * _AROUND + 1), np.uint8))[0]
+    full = np.flatnonzero(~bare & (ink >= _FULL * around))
+    every = np.arange(len(bare))
+    after = np.clip(np.searchsorted(full, every), 0, len(full) - 1)
+    before = np.maximum(after - 1, 0)
+    of = np.repeat(np.arange(graph.branch_count), np.diff(graph.offsets))
+    away = [
+        np.where(of[full[side]] == of, np.abs(full[side] - every), len(bare))
+        for side in (before, after)
+    ]
+    nearest = full[np.where(away[0] < away[1], before, after)]
+    dashed = np.logical_or.reduceat(bare, graph.offsets[:-1])[of]
+    return np.where(dashed & (np.minimum(*away) < len(bare)), nearest, every)
+
+
+def _dots(graph: PlanarGraph, scan: Scan) -> Array:
+    """(B,) bool: which branches are dots of the pen."""
+    length = lengths(graph)
+    degree = np.bincount(graph.ends.ravel(), minlength=len(graph.vertices))
+    alone = (degree[graph.ends] == 1).all(1)
+    return (length < _SHORT) | (alone & (length < _DOT * scan.pen_width))
+
+
+def _widths(graph: PlanarGraph, scan: Scan, asked: Array) -> Array:
+    """(N,) width of the ink across the line at the points `asked` (N,): to half the darkness of its
+    middle on either side."""
     reach = np.arange(0.0, max(3.0, 2.5 * scan.pen_width) + _STEP, _STEP)
-    normal = _normals(graph)
+    points, normal = graph.points[asked], _normals(graph)[asked]
     sides = []
-    middle = sample(scan.ink, graph.points)
+    middle = sample(scan.ink, points)
     for sign in (-1.0, 1.0):
-        at = graph.points[:, None] + sign * reach[:, None] * normal[:, None]
+        at = points[:, None] + sign * reach[:, None] * normal[:, None]
         profile = sample(scan.ink, at)
         # The darkest point of the line need not be the traced one.
         level = 0.5 * np.maximum(middle, profile[:, :3].max(1))[:, None]

@@ -16,6 +16,7 @@ from dataclasses import dataclass
 from ..errors import InvoluteError
 from ..settings import Settings
 from ..values import PlanarGraph, Routing
+from .dashes import join_dashes
 from .ends import place_ends
 from .evidence import Evidence
 from .forks import merge_forks
@@ -59,6 +60,7 @@ PASSES = (
     Pass("junctions", resolve_junctions),
     Pass("spacing", space_points),
     Pass("ends", place_ends),
+    Pass("dashes", join_dashes),
     Pass("gaps", bridge_gaps),
     Pass("smoothing", smooth_lines),
     Pass("joining", join_bends),

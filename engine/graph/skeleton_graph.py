@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..arrays.ragged import owners
 from ..settings import Settings
-from ..values import PlanarGraph
+from ..values import Array, PlanarGraph
 from .evidence import Evidence
 from .ridge import Ridge
 from .skeleton import Chains, thin, trace
 from .topology import select
+
+# px from its middle; a dot has no length, and becomes a line just long enough to have a direction.
+_DOT = np.array([[-0.25, 0.0], [0.25, 0.0]])
 
 
 def trace_ridges(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> PlanarGraph:
@@ -36,11 +40,11 @@ def _pixel_graph(chains: Chains, ridge: Ridge) -> PlanarGraph:
     )
     points = crest[chains.pixels]
     points[starts], points[stops] = vertices[ends[:, 0]], vertices[ends[:, 1]]
+    _spread(points, vertices, chains.offsets, ends)
     # What remains inside a branching, links between touching pixels of one vertex, goes.
     keep = ~((ends[:, 0] == ends[:, 1]) & (np.diff(chains.offsets) <= 3))
-    # A dot has no length; it becomes a line just long enough to have a direction.
     dots = np.setdiff1d(np.arange(chains.node_count), ends[keep])
-    tips = vertices[dots, None] + np.array([[-0.25, 0.0], [0.25, 0.0]])
+    tips = vertices[dots, None] + _DOT
     far = chains.node_count + np.arange(len(dots))
     vertices[dots] = tips[:, 0]
     graph = PlanarGraph(
@@ -52,3 +56,22 @@ def _pixel_graph(chains: Chains, ridge: Ridge) -> PlanarGraph:
         np.concatenate([ends, np.stack([dots, far], -1)]).astype(np.int32),
     )
     return select(graph, np.concatenate([keep, np.ones(len(dots), bool)]))
+
+
+def _spread(points: Array, vertices: Array, offsets: Array, ends: Array) -> None:
+    """Give the chains that hang on nothing and lie in one place the length of a dot: the pixels
+    of a round dot all have its middle for their crest. Changes points (P, 2) and vertices."""
+    degree = np.bincount(ends.ravel(), minlength=len(vertices))
+    low = np.minimum.reduceat(points, offsets[:-1])
+    high = np.maximum.reduceat(points, offsets[:-1])
+    round_ = (degree[ends] == 1).all(1) & (ends[:, 0] != ends[:, 1])
+    round_ &= np.hypot(*(high - low).T) < np.ptp(_DOT)
+    if not round_.any():
+        return
+    middle = (low + high)[round_] / 2
+    vertices[ends[round_]] = middle[:, None] + _DOT
+    chain = owners(offsets)
+    inside = round_[chain]
+    along = (np.arange(len(points)) - offsets[:-1][chain]) / (np.diff(offsets)[chain] - 1)
+    place = np.repeat(middle, np.diff(offsets)[round_], 0)
+    points[inside] = place + _DOT[0] + along[inside, None] * (_DOT[1] - _DOT[0])

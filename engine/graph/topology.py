@@ -19,13 +19,12 @@ def select(graph: PlanarGraph, keep: Array) -> PlanarGraph:
     used[ends] = True
     number = np.cumsum(used) - 1
     stays = np.repeat(keep, counts)
-    measured = (graph.widths, graph.strength, graph.colors)
     return PlanarGraph(
         graph.vertices[used],
         graph.points[stays],
         offsets_of(counts[keep]).astype(np.int32),
         number[ends].astype(np.int32).reshape(-1, 2),
-        *(None if values is None else values[stays] for values in measured),
+        **graph.measures(stays),
     )
 
 
@@ -67,13 +66,12 @@ def joined(graph: PlanarGraph, hold: Array | None = None) -> tuple[PlanarGraph, 
     index = np.repeat(start, taken) + np.repeat(step, taken) * within
     halves = np.stack([order[bounds[:-1]], order[bounds[1:] - 1] ^ 1], -1).astype(np.int32)
     ends = graph.half_vertex[halves]
-    measured = (graph.widths, graph.strength, graph.colors)
     whole = PlanarGraph(
         graph.vertices,
         graph.points[index],
         total[bounds].astype(np.int32),
         ends.astype(np.int32),
-        *(None if values is None else values[index] for values in measured),
+        **graph.measures(index),
     )
     return select(whole, np.ones(whole.branch_count, bool)), halves.reshape(-1)
 

@@ -22,7 +22,7 @@ import numpy as np
 from ..errors import InvoluteError
 from ..formats.picture_kinds import Kind, kind_of, read_kinds
 from ..values import Array
-from . import movie, plain_tiff, psd, tga, tiff_directories
+from . import by_libraries, movie, plain_tiff, psd, tga, tiff_directories
 from .tiff_directories import DamagedTiffError
 
 _ORIENTATION = 0x0112  # EXIF tag
@@ -51,7 +51,7 @@ def read_image(path: str | PathLike[str], page: int = 0) -> Array:
     with _opened(path) as file:
         data = np.frombuffer(file.read(), np.uint8)
     kind = kind_of(data[:_HEAD].tobytes(), path)
-    if kind and kind.remedy:
+    if kind and not kind.is_read:
         raise InvoluteError(f"{path.name} is {kind.name}, which is not read; {kind.remedy}.")
     try:
         with _quiet():
@@ -73,7 +73,7 @@ def read_image(path: str | PathLike[str], page: int = 0) -> Array:
 
 
 def page_count(path: str | PathLike[str]) -> int:
-    """The number of pages of a TIFF, or of images in a movie, else 1; reads only headers.
+    """The number of pages of a TIFF or PDF, or of images in a movie, else 1; reads only headers.
 
     Raises:
         InvoluteError: there is no such file, or it can't be read.
@@ -81,6 +81,13 @@ def page_count(path: str | PathLike[str]) -> int:
     if movie.is_movie(path):
         return movie.image_count(path)
     with _opened(Path(path)) as file:
+        kind = kind_of(file.read(_HEAD), Path(path))
+        file.seek(0)
+        if kind and kind.name == "PDF" and kind.is_read:
+            try:
+                return max(1, by_libraries.pdf_pages(file.read()))
+            except InvoluteError:  # whoever reads it is told
+                return 1
         return max(1, len(tiff_directories.pages(file)))
 
 
@@ -120,11 +127,13 @@ def _decode(data: Array, page: int, kind: Kind | None) -> Array | None:
     name = kind.name if kind else ""
     if name == "TIFF":
         return _tiff_page(data, page)
+    if name == "PDF":
+        return by_libraries.pdf(data.tobytes(), page)
     if page != 0:
         return None
     own = _OWN.get(name)
     picture = own(data.tobytes()) if own else None
-    if picture is not None or name in ("TGA", "PSD"):
+    if picture is not None or name in ("TGA", "PSD", *by_libraries.READERS):
         return picture
     if name in _PER_BYTE and _claimed(data, name) > _PER_BYTE[name] * len(data):
         return None  # before room is made for pixels that can't be there
@@ -208,6 +217,7 @@ _OWN: dict[str, Callable[[bytes], Array | None]] = {
     "TGA": tga.read,
     "PSD": psd.read,
     "BMP": _bmp_with_alpha,
+    **by_libraries.READERS,
 }
 
 

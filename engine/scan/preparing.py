@@ -5,6 +5,7 @@ picture      its values are checked, transparent becomes white
 pose         turned to the way in which its drawing is always looked at
 polarity     dark lines on light, whichever it was
 sheet        what lies beyond the sheet in a photograph goes
+straightening  its perspective is taken out, if wanted
 pen_width    how wide its pen is, which decides at what scale it is traced
 paper        paper, shading, grain and printed rules are taken out: what is left is ink
 """
@@ -21,7 +22,8 @@ from .pen_width import measured_pen
 from .picture import Source, as_bytes, checked_picture, darkest_gray, unit
 from .polarity import is_light_on_dark, with_lightness_inverted
 from .pose import pose_of
-from .sheet import find_sheet, without_surroundings
+from .sheet import Sheet, find_sheet, without_surroundings
+from .straightening import askew, corners_of, straightened
 
 _PEN_RANGE = (1.5, 8.0)  # working px; pens within stay as they are
 _PEN_TARGET = (2.5, 6.0)  # what thinner and thicker ones are brought to
@@ -57,14 +59,13 @@ def read_scan(source: Source, settings: Settings, page: int = 0, turn: bool = Fa
     if settings.provider == "given":
         luma = cv2.cvtColor(picture, cv2.COLOR_RGB2GRAY) if picture.ndim == 3 else picture
         return Scan(unit(luma), None, 1.0, size, settings.pen_width or 2.0, pose=pose)
-    light = is_light_on_dark(picture, settings)
+    light, sheet = _looked_at(picture, settings)
     if light:
         picture = with_lightness_inverted(picture)
+        sheet = find_sheet(picture) if settings.sheet else None
     notes: tuple[str, ...] = ()
-    sheet = find_sheet(picture) if settings.sheet else None
     if sheet:
-        picture = without_surroundings(picture, sheet)
-        notes = (f"What lies beyond the sheet was left out: {sheet.share:.0%} of the picture.",)
+        picture, notes = _sheet_alone(picture, sheet, settings)
     gray = darkest_gray(picture)
     ink, ruled = None, False
     if gray.size <= _FLAT_WHOLE:
@@ -79,6 +80,33 @@ def read_scan(source: Source, settings: Settings, page: int = 0, turn: bool = Fa
     guessed = light and settings.polarity == "auto"
     pen /= scale
     return Scan(ink, color, scale, size, pen, light=guessed, notes=notes, pose=pose)
+
+
+def _looked_at(picture: Array, settings: Settings) -> tuple[bool, Sheet | None]:
+    """Whether the lines are light on dark, and else the sheet that they are on."""
+    light = is_light_on_dark(picture, settings)
+    if not settings.sheet or (light and settings.polarity != "auto"):
+        return light, None
+    # A dark desk may take up more of a photograph than the sheet on it.
+    sheet = find_sheet(picture)
+    light = light and (
+        sheet is None or is_light_on_dark(without_surroundings(picture, sheet), settings)
+    )
+    return light, sheet
+
+
+def _sheet_alone(picture: Array, sheet: Sheet, settings: Settings) -> tuple[Array, tuple[str, ...]]:
+    """The picture without what lies beyond its sheet, seen from above if wanted; and notes."""
+    corners = corners_of(sheet, picture) if settings.straighten else None
+    picture = without_surroundings(picture, sheet)
+    notes = (f"What lies beyond the sheet was left out: {sheet.share:.0%} of the picture.",)
+    if not settings.straighten:
+        return picture, notes
+    if corners is None:
+        return picture, (*notes, "The sheet was not straightened: its four corners are not sure.")
+    off = askew(corners)
+    picture, _ = straightened(picture, sheet, corners)
+    return picture, (*notes, f"The sheet was straightened: its corners were {off:.0f}° askew.")
 
 
 def _working_scale(pen: float, width: int, height: int) -> float:

@@ -28,6 +28,8 @@ _DEEPEST = 0.15  # of the page: a wider black area is a drawn one
 _PEN = (0.4, 1.6)  # pen widths: how wide a line along the edge is, which may be cut off by it
 _WORKING_SIDE = 3000  # px; larger pages are looked at smaller
 _LOOSE = 0.02  # of the distance between the holes: how far they may miss those of the first page
+_WHITE, _LIGHTER = 235, 0.4  # of 255: no sheet is tinted; share of what is left up to white
+_RIM = 0.15  # of a hole's width: how far its shadow lies around it
 _SIZES = (0.007, 0.09)  # of the page's longer side: smallest and largest hole or mark
 
 
@@ -56,7 +58,7 @@ def set_aside(scan: Scan, settings: Settings) -> Scan:
     wanted = np.array(settings.align, np.float32).reshape(-1, 2) / scan.scale
     if not settings.marks or settings.provider == "given":
         return replace(scan, aligned=not len(wanted))
-    marks = find_marks(scan.ink, scan.pen_width)
+    marks = find_marks(scan.ink, scan.pen_width, scan.color)
     if marks.mask.any():
         note = f"Left out as no part of the drawing: {', '.join(marks.names)}."
         ink = np.where(marks.mask, np.float32(0), scan.ink)
@@ -74,7 +76,7 @@ def set_aside(scan: Scan, settings: Settings) -> Scan:
 
 def anchors_of(scan: Scan) -> tuple[tuple[float, float], ...]:
     """The holes or marks of a page in pixels of the input, as `Settings.align` wants them."""
-    marks = find_marks(scan.ink, scan.pen_width)
+    marks = find_marks(scan.ink, scan.pen_width, scan.color)
     return tuple((float(x), float(y)) for x, y in marks.anchors * scan.scale)
 
 
@@ -97,12 +99,13 @@ def first_anchors(
     return anchors
 
 
-def find_marks(ink: Array, pen_width: float) -> Marks:
+def find_marks(ink: Array, pen_width: float, color: Array | None = None) -> Marks:
     """Find everything on a page that is not drawn.
 
     Args:
         ink: (H, W) float32, 1 = full ink.
         pen_width: typical width of a line, px.
+        color: (H, W, 3) uint8, the page: through holes in a tinted sheet one sees what is lighter.
     """
     height, width = ink.shape
     shrink = max(1.0, max(ink.shape) / _WORKING_SIDE)
@@ -115,11 +118,17 @@ def find_marks(ink: Array, pen_width: float) -> Marks:
     dark[mask] = 0
     blobs = _blobs(dark, pen_width)
     holes = _peg_holes(blobs, ink.shape)
+    rim = 0.0
+    if not holes and color is not None:
+        holes = _peg_holes(_blobs(_lighter(color, dark.shape), pen_width), ink.shape)
+        rim = _RIM  # and the shadow that falls on it
     crosses = _crosses(blobs, ink.shape)
     names += [f"{len(holes)} punched holes"] if holes else []
     names += [f"{len(crosses)} registration marks"] if crosses else []
-    for blob in (*holes, *crosses):
+    for blob in crosses:
         _stamp(mask, blob, pen_width)
+    for blob in holes:
+        _stamp(mask, blob, pen_width + rim * min(blob.size))
     if shrink > 1:
         whole = cv2.resize(mask.view(np.uint8), (width, height), interpolation=cv2.INTER_NEAREST)
         mask = whole.view(bool)
@@ -289,6 +298,22 @@ def _blobs(dark: Array, pen_width: float) -> list[_Blob]:
         piece = labels[y[k] : y[k] + h[k], x[k] : x[k] + w[k]] == k
         blobs.append(_Blob(int(x[k]), int(y[k]), piece.astype(np.uint8)))
     return blobs
+
+
+def _lighter(color: Array, shape: tuple[int, ...]) -> Array:
+    """(H, W) uint8, at a size: 1 where a page is clearly lighter than its sheet."""
+    sheet = np.median(color[::8, ::8].reshape(-1, 3), axis=0)
+    clear: Array = np.zeros(shape, np.uint8)
+    if sheet.min() > _WHITE:  # nothing is lighter than that
+        return clear
+    small = (
+        cv2.resize(color, shape[::-1], interpolation=cv2.INTER_AREA)
+        if (color.shape[:2] != shape)
+        else color
+    )
+    above = cv2.blur(small, (3, 3)).min(2).astype(np.int16) - int(sheet.min())
+    clear = (above > _LIGHTER * (255 - int(sheet.min()))).astype(np.uint8)
+    return cv2.morphologyEx(clear, cv2.MORPH_OPEN, np.ones((3, 3), np.uint8))
 
 
 def _peg_holes(blobs: Sequence[_Blob], shape: tuple[int, ...]) -> list[_Blob]:

@@ -9,6 +9,7 @@ from os import PathLike
 from pathlib import Path
 from typing import BinaryIO
 
+from .by_libraries import PDF_DPI
 from .tiff_directories import ORDERS, DamagedTiffError, pages
 
 # Scanners say 100 to 4800; 72 and 96 are what cameras and programs write that know nothing.
@@ -30,6 +31,8 @@ def dots_per_inch(path: str | PathLike[str], page: int = 0) -> float | None:
             found = _of_jpeg(f)
         elif head in (b"II*\0", b"MM\0*"):
             found = _of_tiff(f, page)
+        elif head == b"%PDF":
+            found = PDF_DPI
         elif head[:2] == b"BM":
             f.seek(38)
             found = struct.unpack("<i", f.read(4))[0] * _INCH

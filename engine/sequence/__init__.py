@@ -1,8 +1,8 @@
 """Numbered drawings -> frames, and strokes that stay themselves from frame to frame.
 
 frames: names -> frame numbers. stroke_matching: which stroke is which from frame to frame. follow:
-order, direction and colour taken over from the frame before. Tracing them in parallel processes
-is `command.trace_sequence`.
+order, direction and colour taken over from the frame before; steady: how strokes are joined.
+Tracing them in parallel processes is `command.trace_sequence`.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Order, direction and colour of strokes, taken over from the frame before.
+"""Order, direction, colour and routing of strokes, taken over from the frame before.
 
 Blender pairs the strokes of two keyframes by their number in the layer when it interpolates, and
 from start to end; so a line keeps its number among the lines of its ink, and its direction, for as
@@ -17,6 +17,7 @@ from ..arrays.ragged import arc
 from ..drawing import Drawing
 from ..ink.known_inks import Color, with_known_inks
 from ..values import Array, Stroke
+from .steady import steadied
 from .stroke_matching import SAMPLES, Matches, match_strokes, sample_strokes
 
 
@@ -32,7 +33,9 @@ class Follower:
     strokes: tuple[Stroke, ...] = ()
 
     def __call__(self, drawing: Drawing) -> Drawing:
-        """The same drawing; strokes reordered, reversed, recoloured, none changed in shape."""
+        """The same drawing; what lies where it lay is joined and ended as it was (see `steady`),
+        strokes are reordered, reversed, recoloured, and no line is moved."""
+        drawing = steadied(drawing, self.strokes)
         strokes = with_known_inks(drawing.strokes, self.inks)
         if strokes:
             strokes = follow(self.strokes, strokes)

@@ -9,6 +9,7 @@ import numpy as np
 from ..values import Array, Stroke
 from .bezier import fit
 from .corners import find_corners, sharpen
+from .dashing import dashes
 from .fairing import margin, smooth
 from .lines import Lines, Pieces
 from .shared import SAMPLES_PER_PEN, Page
@@ -37,14 +38,15 @@ def build(page: Page, walks: Sequence[Walk]) -> list[Stroke]:
     lines = Lines.of(page, walks, margin(page.settings.smoothing))
     raw = page.points[lines.sample]
     corner = find_corners(raw, lines)
-    points = sharpen(raw, lines, corner, page.pen)
+    points = sharpen(raw, lines, corner, page.pen, page.size)
     points = _with_length(smooth(points, lines, corner, page.settings.smoothing), raw, lines)
     widths, opacity = _ink(page, lines)
     kept, handles = _few(page, lines, corner, points, widths, opacity)
     kept |= _drawn_together(points, lines, kept, handles)
 
+    even = dashes(page.bare[lines.sample], points, lines) if page.bare is not None else None
     strokes = []
-    for walk, start, stop in zip(walks, lines.start, lines.stop, strict=True):
+    for number, (walk, start, stop) in enumerate(zip(walks, lines.start, lines.stop, strict=True)):
         chosen = start + np.flatnonzero(kept[start:stop])
         curve = None if handles is None else handles[chosen].astype(np.float32)
         if walk.closed:  # the last sample is the first again
@@ -62,6 +64,7 @@ def build(page: Page, walks: Sequence[Walk]) -> list[Stroke]:
                 color=page.inks.color_of(branches >> 1, page.length[branches >> 1]),
                 branches=branches,
                 handles=curve,
+                dash=even[number] if even else None,
             )
         )
     return strokes

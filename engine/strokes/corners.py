@@ -56,10 +56,13 @@ def _turn(points: Array, lines: Lines, arm: int) -> Array:
     return np.where(short, 0.0, turn)
 
 
-def sharpen(points: Array, lines: Lines, corner: Array, pen: float) -> Array:
+def sharpen(
+    points: Array, lines: Lines, corner: Array, pen: float, size: tuple[float, float]
+) -> Array:
     """The samples with each corner moved to where its two straight sides meet, (N, 2).
 
-    Corners at junctions stay, and so do those with a curved or short side.
+    Corners at junctions stay, and so do those with a curved or short side, and those that the edge
+    of the page, of width and height `size`, px, cuts off.
     """
     place = np.arange(len(points))
     reach = _ROUNDED + _STRAIGHT
@@ -86,7 +89,7 @@ def sharpen(points: Array, lines: Lines, corner: Array, pen: float) -> Array:
     along = -(heading[0] * heading[1]).sum(1)
     lost = _RADIUS * (1 / np.sqrt(np.maximum((1 + along) / 2, 0.03)) - 1)
     good = (np.maximum(*bent) < _BENT * pen) & (moved < (lost + _SLACK) * pen)
-    good &= np.abs(det) > 0.2
+    good &= (np.abs(det) > 0.2) & (tip >= 0).all(1) & (tip <= size).all(1)
     at, tip = at[good], tip[good]
     result = points.copy()
     for step in range(_ROUNDED):

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arrays.ragged import owners
 from ..arrays.two_clusters import finer_pen
 from ..ink.palette import Inks
 from ..ink.pencil import undimmed
@@ -19,6 +20,7 @@ _RING = 4  # pieces of a line that comes back to where it began, however broad t
 SAMPLES_PER_PEN = 4  # samples along a line of one pen width
 _BLOB = 1.0  # pen widths around a junction where other lines spoil the width; twice that to be sure
 _UNKNOWN = 4.0  # px
+_ENDLESS = (np.inf, np.inf)
 # Mean change of opacity from point to point of a line: ink has up to 0.0073, pencil and charcoal
 # 0.012 and more (held-out pages of all media).
 _GRAIN = 0.0095
@@ -37,6 +39,8 @@ class Page:
     crossed: (2B,) bool; the half-branch starts at a junction.
     inks: the colours of the page.
     solid: (K,) bool for each of them; its strokes are opaque.
+    bare: (M,) bool, samples in a gap of a dashed line; None = nobody looked.
+    size: width and height of the page, px, which no stroke leaves.
     """
 
     pen: float
@@ -50,20 +54,23 @@ class Page:
     inks: Inks
     solid: Array
     settings: Settings
+    bare: Array | None = None
+    size: tuple[float, float] = _ENDLESS
 
     @classmethod
-    def of(cls, graph: PlanarGraph, settings: Settings) -> Page:
+    def of(
+        cls, graph: PlanarGraph, settings: Settings, size: tuple[float, float] = _ENDLESS
+    ) -> Page:
         """Sample a graph; without widths, its lines are `_UNKNOWN` px wide."""
         widths = np.full(len(graph.points), _UNKNOWN) if graph.widths is None else graph.widths
         pen = max(float(np.median(finer_pen(widths))), 0.1) if len(widths) else _UNKNOWN
-        size = np.diff(graph.offsets)
-        branch = np.repeat(np.arange(graph.branch_count), size)
+        branch = owners(graph.offsets)
         points = graph.points.astype(np.float64)
         step = np.hypot(*np.diff(points, axis=0, prepend=points[:1]).T)
         step[graph.offsets[:-1]] = 0.0
         # Multiples of 2^-20 add up without rounding, so that nothing depends on what else is here.
         arc = np.cumsum(np.round(step * 2.0**20) / 2.0**20)
-        arc -= np.repeat(arc[graph.offsets[:-1]], size)
+        arc -= arc[graph.offsets[:-1]][branch]
         length = arc[graph.offsets[1:] - 1]
 
         begin, end = points[graph.offsets[:-1]], points[graph.offsets[1:] - 1]
@@ -86,11 +93,9 @@ class Page:
             values = values if values.ndim == 2 else values[:, None]
             return values[low] + t[:, None] * (values[low + 1] - values[low])
 
-        near = np.where(
-            graph.degrees[graph.ends[of_sample]] >= 3,
-            np.stack([along, length[of_sample] - along], 1),
-            np.inf,
-        ).min(1, initial=np.inf)
+        way = np.stack([along, length[of_sample] - along], 1)  # to both ends of the branch
+        meets = graph.degrees[graph.ends[of_sample]] >= 3
+        near = np.where(meets, way, np.inf).min(1, initial=np.inf)
         inks = Inks.of(graph, length, pen) if settings.inks else Inks.black(graph.branch_count)
         opacity = np.ones(len(points))
         if graph.strength is not None:
@@ -107,6 +112,8 @@ class Page:
             inks=inks,
             solid=_solid(opacity, branch, inks, settings.opacity),
             settings=settings,
+            bare=None if graph.bare is None else at(graph.bare)[:, 0] > 0.5,
+            size=size,
         )
 
 

@@ -1,4 +1,7 @@
-"""Before a file is saved, data-blocks adopt the junctions of strokes that came from others."""
+"""Before a file is saved, data-blocks adopt the junctions of strokes that came from others.
+
+Before another one is opened, what was remembered of this one is forgotten.
+"""
 
 from __future__ import annotations
 
@@ -18,11 +21,18 @@ def _adopt(*_: object) -> None:
                 continue
 
 
+@bpy.app.handlers.persistent
+def _forget(*_: object) -> None:
+    state.forget_seen()
+
+
 def register() -> None:
     """Adopt before every save."""
     bpy.app.handlers.save_pre.append(_adopt)
+    bpy.app.handlers.load_pre.append(_forget)
 
 
 def unregister() -> None:
     """No longer adopt."""
     bpy.app.handlers.save_pre.remove(_adopt)
+    bpy.app.handlers.load_pre.remove(_forget)

@@ -11,15 +11,19 @@ strokes are marked with the routing that they are in, and the entry remembers ea
 are joined and separated, and only strokes move: the entry of a key is found in whatever data-block
 has it, and where the pixels lie is looked up from the strokes (`core.map_fit`).
 
-Rerouting stores little and is quick, since the drawing stays as it was traced. Nothing is
-remembered in Python but decoded drawings, looked up by the hash of their content.
+A step of undo back into Edit Mode brings strokes together with older ID properties than they had:
+ones that don't know their routing yet. So the last entry of each key is remembered as long as the
+file is open (`_seen`), and strokes find theirs there by their mark; saving writes it down.
+
+Rerouting stores little and is quick, since the drawing stays as it was traced. Decoded drawings are
+remembered, too, looked up by the hash of their content.
 """
 
 from __future__ import annotations
 
 import contextlib
 import zlib
-from collections import Counter
+from collections import Counter, OrderedDict
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -39,6 +43,8 @@ if TYPE_CHECKING:
 
 PROPERTY = "involute"
 VERSION = 1
+_MAX_SEEN = 64  # entries; each is as large as a drawing in the file, a few hundred KB
+_seen: OrderedDict[int, dict[str, Any]] = OrderedDict()
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,7 +96,9 @@ def load(data: bpy.types.ID, key: int, frame: int | None = None) -> Trace:
     with reading():
         stamp = stored_trace.stamp_of(entry)
         if frame is not None:
-            stamp = stored_trace.stamp_marked(entry, _mark(data, frame, key))
+            marks = _marks([cel for _, cel in cels.cels_at(data, frame)], key)
+            entry = _knowing(entry, key, marks[0])
+            stamp = stored_trace.stamp_among(entry, marks)
         drawing = stored_trace.drawing_of(entry, stamp)
         pixel_map = stored_trace.pixel_map_of(entry)
         return Trace(key, drawing, pixel_map, stored_trace.source_of(entry), stamp)
@@ -143,7 +151,9 @@ def add(
     """Store a new trace and return its key."""
     traces = _writable(data)
     key = _free_key(data, drawing, source)
-    traces[str(key)], _ = stored_trace.made(drawing, pixel_map, source, picture)
+    entry, _ = stored_trace.made(drawing, pixel_map, source, picture)
+    traces[str(key)] = entry
+    _see(key, entry)
     return key
 
 
@@ -188,7 +198,7 @@ def store(data: bpy.types.ID, frame: int, before: Trace, after: Trace) -> Trace:
         before: the trace as it was loaded.
         after: the same with another drawing, and the key that it is to have.
     """
-    entry = _entry(data, before.key)
+    entry = _knowing(_entry(data, before.key), before.key, stored_trace.mark_of(before.stamp))
     base = stored_trace.base_of(entry)
     if change.can_be_told(base, after.drawing):
         entry, stamp = stored_trace.rerouted(
@@ -198,6 +208,7 @@ def store(data: bpy.types.ID, frame: int, before: Trace, after: Trace) -> Trace:
         picture = stored_trace.picture_of(entry)
         entry, stamp = stored_trace.made(after.drawing, after.pixel_map, after.source, picture)
     _writable(data)[str(after.key)] = entry
+    _see(after.key, entry)
     for _, cel in cels.cels_at(data, frame):
         mine = cels.read_column(cel, TRACE)
         if mine is not None and (mine == after.key).any():
@@ -225,18 +236,42 @@ def own_key(data: bpy.types.ID, frame: int, trace: Trace) -> Trace:
 
 
 def adopt(data: bpy.types.ID) -> None:
-    """Copy what the data-block's strokes need from the data-blocks that they came from.
+    """Copy what the data-block's strokes need from where it is: other data-blocks, or `_seen`.
 
     Joining and separating objects moves strokes, not ID properties; a file that is saved with one
     of the objects alone must hold the junctions of its strokes.
     """
-    wanted = set()
+    wanted: dict[int, int] = {}
     for cel in cels.all_cels(data):
-        wanted |= _strokes_by_key(cel).keys()
-    for key in sorted(key for key in wanted if key > 0):
-        entry = _entry(data, key)
-        if entry is not None and str(key) not in _traces(data):
-            _writable(data)[str(key)] = entry.to_dict()
+        for key in _strokes_by_key(cel):
+            wanted.setdefault(key, _marks([cel], key)[0])
+    for key, mark in sorted(wanted.items()):
+        entry = _entry(data, key) if key > 0 else None
+        if entry is None:
+            continue
+        known = _knowing(entry, key, mark)
+        if known is not entry or str(key) not in _traces(data):
+            _writable(data)[str(key)] = known if isinstance(known, dict) else known.to_dict()
+
+
+def forget_seen() -> None:
+    """Another file is opened: its keys may be the same, and there is nothing to undo."""
+    _seen.clear()
+
+
+def _see(key: int, entry: dict[str, Any]) -> None:
+    _seen[key] = entry
+    _seen.move_to_end(key)
+    while len(_seen) > _MAX_SEEN:
+        _seen.popitem(last=False)
+
+
+def _knowing(entry: Any, key: int, mark: int) -> Any:
+    """The entry, or the one that was seen last where only that knows the routing of strokes."""
+    seen = _seen.get(key)
+    if seen is None or stored_trace.holds(entry, mark):
+        return entry
+    return seen if stored_trace.holds(seen, mark) else entry
 
 
 def _strokes_by_key(cel: object) -> dict[int, int]:
@@ -254,14 +289,14 @@ def _counted(column: np.ndarray) -> dict[int, int]:
     return dict(zip(keys.tolist(), counts.tolist(), strict=True))
 
 
-def _mark(data: bpy.types.ID, frame: int, key: int) -> int:
-    """The routing that most of the strokes are marked with; 0 = they have no mark."""
+def _marks(some: list[object], key: int) -> list[int]:
+    """The routings that the strokes in cels are marked with, the most usual first; 0 = no mark."""
     counts: Counter[int] = Counter()
-    for _, cel in cels.cels_at(data, frame):
+    for cel in some:
         keys, marks = (cels.read_column(cel, name) for name in (TRACE, ROUTING))
         if keys is not None and marks is not None:
             counts.update(_counted(marks[keys == key]))
-    return counts.most_common(1)[0][0] if counts else 0
+    return [mark for mark, _ in counts.most_common()] or [0]
 
 
 def _users(some: list[object], key: int) -> int:
@@ -303,7 +338,7 @@ def _entry(data: bpy.types.ID, key: int) -> Any:
                 continue
             if name in found:
                 return found[name]
-    return None
+    return _seen.get(key)  # undo brought its strokes back
 
 
 def _writable(data: bpy.types.ID) -> Any:

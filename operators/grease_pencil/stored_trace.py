@@ -13,9 +13,10 @@ A file may be cut short, or edited by other programs: whatever is wrong is said 
 
 from __future__ import annotations
 
+import re
 import zlib
 from collections import OrderedDict
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from hashlib import blake2b
@@ -49,6 +50,7 @@ _WRONG = (
     ValueError,
     zlib.error,
 )
+_STAMP = re.compile("[0-9a-f]{32}")
 _decoded: OrderedDict[str, Drawing] = OrderedDict()
 
 
@@ -103,12 +105,14 @@ def doubtful_of(entry: Any) -> int:
 
 
 def picture_of(entry: Any) -> Picture:
-    """The picture that it was traced from, as far as somebody noted it."""
-    values = {name: entry[name] for name in ("path", "page", "image") if name in entry}
+    """The picture that it was traced from, as far as somebody noted it.
+
+    What is damaged of that is unknown: the junctions don't hang on it.
+    """
     kinds = {"path": str, "page": int, "image": str}
-    if any(not isinstance(value, kinds[name]) for name, value in values.items()):
-        raise TypeError("picture")
-    return Picture(**values)
+    noted = {name: entry.get(name) for name in kinds}
+    sound = all(isinstance(v, kinds[name]) for name, v in noted.items() if v is not None)
+    return Picture(**{n: v for n, v in noted.items() if v is not None}) if sound else Picture()
 
 
 def pixel_map_of(entry: Any) -> PixelMap:
@@ -127,18 +131,33 @@ def mark_of(stamp: str) -> int:
     return int(stamp[:8], 16) & 0x7FFFFFFF or 1
 
 
-def stamp_marked(entry: Any, mark: int) -> str:
-    """The stamp of the routing that strokes with this mark are in.
+def stamp_among(entry: Any, marks: Iterable[int]) -> str:
+    """The stamp of the routing that strokes are in.
 
-    Raises:
-        KeyError: it is none of those that are remembered.
+    Args:
+        marks: those that the strokes carry, the most usual first. Copies of an object that were
+            decided on apart and then joined bring marks of routings that nobody remembers here.
     """
-    latest = stamp_of(entry)
-    if mark == 0:
-        return _text(entry, "unmarked") if "unmarked" in entry else latest
-    if mark == mark_of(latest):
-        return latest
-    return next(stamp for stamp in entry["earlier"].keys() if mark_of(stamp) == mark)  # noqa: SIM118
+    known = _known(entry)
+    return next((known[mark] for mark in marks if mark in known), stamp_of(entry))
+
+
+def holds(entry: Any, mark: int) -> bool:
+    """Does an entry know the routing that strokes with this mark are in?"""
+    try:
+        return mark in _known(entry)
+    except _WRONG:
+        return False
+
+
+def _known(entry: Any) -> dict[int, str]:
+    """The stamps of all routings that are remembered, by the marks of their strokes."""
+    latest, unmarked = stamp_of(entry), entry.get("unmarked")
+    earlier = entry.get("earlier")
+    names = earlier.keys() if hasattr(earlier, "keys") else ()
+    stamps = [*filter(_STAMP.fullmatch, names), latest]
+    known = {0: unmarked if unmarked in stamps else latest}
+    return known | {mark_of(stamp): stamp for stamp in stamps}
 
 
 def drawing_of(entry: Any, stamp: str) -> Drawing:
@@ -202,7 +221,7 @@ def rerouted(
     base = base_of(entry)
     routing = change.packed(base, drawing, differs=False)
     stamp = _hash(_text(entry, "base").encode() + routing)
-    earlier = dict(entry["earlier"].items()) if "earlier" in entry else {}
+    earlier = _earlier(entry)
     for known, one in ((stamp_before, before), (stamp, drawing)):
         earlier.pop(known, None)
         earlier[known] = change.packed(base, one, differs=True)
@@ -210,7 +229,8 @@ def rerouted(
     changed |= picture_of(entry).as_entry() | {"doubtful": len(drawing.doubtful)}
     changed |= {"routing": routing, "stamp": stamp, "placement": pixel_map.as_list()}
     changed["earlier"] = dict(list(earlier.items())[-_MAX_EARLIER:])
-    changed["unmarked"] = _text(entry, "unmarked") if "unmarked" in entry else stamp_of(entry)
+    unmarked = entry.get("unmarked")
+    changed["unmarked"] = unmarked if isinstance(unmarked, str) else stamp_of(entry)
     remember(stamp, drawing)
     return changed, stamp
 
@@ -221,6 +241,15 @@ def remember(stamp: str, drawing: Drawing) -> None:
     _decoded.move_to_end(stamp)
     while len(_decoded) > _MAX_DECODED:
         _decoded.popitem(last=False)
+
+
+def _earlier(entry: Any) -> dict[str, bytes]:
+    """The routings that undo may bring back, by their stamps; what is damaged of them is none."""
+    known = entry.get("earlier")
+    items = known.items() if hasattr(known, "items") else ()
+    return {
+        stamp: told for stamp, told in items if _STAMP.fullmatch(stamp) and isinstance(told, bytes)
+    }
 
 
 def _hash(content: bytes) -> str:

@@ -6,7 +6,7 @@ import bpy
 from bpy.props import FloatProperty
 
 from ..language import message
-from ..view.view_state import shown_in
+from ..view.view_state import CERTAIN, shown_in
 from .junction_operator import JunctionOperator
 
 
@@ -19,7 +19,7 @@ class INVOLUTE_OT_accept(JunctionOperator, bpy.types.Operator):
     probability: FloatProperty(
         name="Certainty",
         description="Least probability of the routing in force",
-        default=95.0,
+        default=CERTAIN,
         min=0.0,
         max=100.0,
         subtype="PERCENTAGE",

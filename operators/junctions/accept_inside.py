@@ -53,7 +53,7 @@ class INVOLUTE_OT_lasso_accept(PathGesture, bpy.types.Operator):
             if (inside(shown.table.positions, outline) & ~shown.table.locked).any():
                 make_current(context, shown, shown.view.junction)
                 path = as_items(outline)
-                return bpy.ops.involute.accept_inside("EXEC_DEFAULT", True, path=path)
+                return self.do(bpy.ops.involute.accept_inside, path=path)
         self.report({"INFO"}, message("No open junction lies inside."))
         return {"CANCELLED"}
 

@@ -53,7 +53,7 @@ class INVOLUTE_OT_swipe_cut(PathGesture, bpy.types.Operator):
                 continue
             if found:
                 make_current(context, shown, -1)
-                return bpy.ops.involute.cut("EXEC_DEFAULT", True, path=as_items(path))
+                return self.do(bpy.ops.involute.cut, path=as_items(path))
         self.report({"INFO"}, message("The swipe crosses no stroke."))
         return {"CANCELLED"}
 
@@ -64,7 +64,7 @@ class INVOLUTE_OT_swipe_cut(PathGesture, bpy.types.Operator):
         shown, near = found
         half = min(near, key=near.get)
         make_current(context, shown, junction_of(shown, half))
-        return bpy.ops.involute.separate("EXEC_DEFAULT", True, half=half)
+        return self.do(bpy.ops.involute.separate, half=half)
 
 
 def crossings_of(shown: Shown, path: np.ndarray) -> list[Crossing]:

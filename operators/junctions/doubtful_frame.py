@@ -1,9 +1,9 @@
-"""Go to the next keyframe of a sequence that has doubtful junctions."""
+"""Go to a keyframe of a sequence that has doubtful junctions: the next one, or a certain one."""
 
 from __future__ import annotations
 
 import bpy
-from bpy.props import EnumProperty
+from bpy.props import EnumProperty, IntProperty
 
 from ..grease_pencil import state
 from ..language import message
@@ -45,4 +45,19 @@ class INVOLUTE_OT_doubtful_frame(JunctionOperator, bpy.types.Operator):
         return {"FINISHED"}
 
 
-CLASSES = (INVOLUTE_OT_doubtful_frame,)
+class INVOLUTE_OT_go_to_frame(JunctionOperator, bpy.types.Operator):
+    """Go to this keyframe"""
+
+    bl_idname = "involute.go_to_frame"
+    bl_label = "Go to Keyframe"
+    bl_options = {"INTERNAL"}
+
+    frame: IntProperty(name="Frame", description="Number of the frame")
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        """Set the current frame."""
+        context.scene.frame_set(self.frame)
+        return {"FINISHED"}
+
+
+CLASSES = (INVOLUTE_OT_doubtful_frame, INVOLUTE_OT_go_to_frame)

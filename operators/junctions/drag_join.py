@@ -45,12 +45,12 @@ class INVOLUTE_OT_drag_join(PathGesture, bpy.types.Operator):
             radius = radius_on_page(context, shown, places)
             if len(followed(shown.trace.drawing.graph, line, radius)) >= 2:
                 path = as_items(line)
-                return bpy.ops.involute.route_along("EXEC_DEFAULT", True, path=path, radius=radius)
+                return self.do(bpy.ops.involute.route_along, path=path, radius=radius)
         ends = [end_under(context, tuple(place)) for place in (places[0], places[-1])]
         if all(ends) and ends[0][1] != ends[1][1] and ends[0][0].object == ends[1][0].object:
             make_current(context, ends[0][0], -1)
             pair = ends[0][1], ends[1][1]
-            return bpy.ops.involute.join("EXEC_DEFAULT", True, first=pair[0], second=pair[1])
+            return self.do(bpy.ops.involute.join, first=pair[0], second=pair[1])
         return self._join_near(context, tuple(places[-1]))
 
     def _join_near(self, context: bpy.types.Context, mouse: tuple[float, float]) -> set[str]:
@@ -65,7 +65,7 @@ class INVOLUTE_OT_drag_join(PathGesture, bpy.types.Operator):
             self.report({"INFO"}, said)
             return {"CANCELLED"}
         make_current(context, found[0], junction_of(found[0], pair[0]))
-        return bpy.ops.involute.join("EXEC_DEFAULT", True, first=pair[0], second=pair[1])
+        return self.do(bpy.ops.involute.join, first=pair[0], second=pair[1])
 
 
 CLASSES = (INVOLUTE_OT_drag_join,)

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import bpy
 import numpy as np
 from bpy.props import CollectionProperty
 
+from ..language import reported
 from ..view.view_state import places_of, redraw, traced_in, view_of
 from .junction_operator import JunctionOperator
 
@@ -24,6 +27,14 @@ class PathGesture(JunctionOperator):
     def drawn(self, context: bpy.types.Context, places: Array) -> set[str]:
         """The path is there, (N, 2) px of the region."""
         raise NotImplementedError
+
+    def do(self, operator: Callable[..., set[str]], **options: object) -> set[str]:
+        """Run the operator that the path means; what it reports is told, not raised."""
+        try:
+            return operator("EXEC_DEFAULT", True, **options)
+        except RuntimeError as problem:
+            self.report({"ERROR"}, reported(problem))
+            return {"CANCELLED"}
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Begin where the button went down; elsewhere the drag belongs to others."""

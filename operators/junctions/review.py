@@ -33,6 +33,7 @@ class INVOLUTE_OT_review(CardChoice, bpy.types.Operator):
         if context.region_data is None:
             return {"CANCELLED"}
         self._passed: list[int] = []  # junctions that were decided or skipped, in order
+        self._skipped: set[int] = set()  # those of them that stay open
         self._settled = 0  # doubts that went when others were decided
         shown = shown_in(context)
         if len(open_doubts(shown, ())) == 0:
@@ -76,6 +77,7 @@ class INVOLUTE_OT_review(CardChoice, bpy.types.Operator):
         like it as well."""
         index = shown.junction.index
         if key in {"SPACE", "N"}:
+            self._skipped.add(index)
             return self._go_on(context, index)
         if key == "S":
             pairs = shown.junction.pairs
@@ -86,6 +88,7 @@ class INVOLUTE_OT_review(CardChoice, bpy.types.Operator):
             return {"PASS_THROUGH"}
         if self._passed:
             before = self._passed.pop()
+            self._skipped.discard(before)
             if shown.table.locked[before]:
                 self._change(context, lambda drawing: drawing.unlock(before))
             self._show(context, shown_in(context), before)
@@ -100,6 +103,8 @@ class INVOLUTE_OT_review(CardChoice, bpy.types.Operator):
         if self._change(context, how):
             left = open_doubts(shown_in(context), ())
             self._settled += len(np.setdiff1d(open_before, left))
+        else:  # it can't be decided now
+            self._skipped.add(index)
         return self._go_on(context, index)
 
     def _change(self, context: bpy.types.Context, how: Callable[[Drawing], Drawing]) -> bool:
@@ -116,7 +121,7 @@ class INVOLUTE_OT_review(CardChoice, bpy.types.Operator):
     def _go_on(self, context: bpy.types.Context, passed: int) -> set[str]:
         self._passed.append(passed)
         shown = shown_in(context)
-        left = open_doubts(shown, self._passed)
+        left = open_doubts(shown, self._skipped)
         if len(left) == 0:
             self.report({"INFO"}, message("No junction is doubtful any more."))
             return self.leave(context, {"FINISHED"})
@@ -131,15 +136,16 @@ class INVOLUTE_OT_review(CardChoice, bpy.types.Operator):
         redraw(context)
 
     def _status(self, shown: Shown) -> str:
-        left = open_doubts(shown, self._passed)
+        left = open_doubts(shown, self._skipped)
+        done = [one for one in self._passed if one not in left]  # the others were undone
         long = _LONG * max(shown.trace.drawing.size)
-        number = len(self._passed) + 1
+        number = len(done) + 1
         return label(
             "{number} of {all}, {long} long strokes left, {settled} settled by your decisions: "
             "digit or click decides, Enter accepts, S decides all that are alike, Space skips, "
             "Backspace goes back, Esc leaves",
             number=number,
-            all=max(number, len(self._passed) + len(left)),
+            all=max(number, len(done) + len(left)),
             long=int((shown.table.cost[left] > long).sum()),
             settled=self._settled,
         )

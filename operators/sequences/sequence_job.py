@@ -36,6 +36,11 @@ class SequenceJob(Job):
         self._options = {"jobs": jobs, "parts": parts, "follow": follow}
         self._settings = settings
 
+    @property
+    def pictures(self) -> int:
+        """How many frames there are."""
+        return len(self.frames)
+
     def results(self) -> list[TracedFrame]:
         """What came since the last call: (frame, drawing or problem, not traced anew)."""
         found = []
@@ -64,6 +69,8 @@ class SequenceJob(Job):
             self._kept.add(frame.frame)
         if outcome.report.get("aligned") is False:
             self.unaligned.append(frame)
+        if self.heard is not None:
+            self.heard(f"frame {frame.frame}", outcome)
         if self.cancelled:
             raise Cancelled
 

@@ -8,19 +8,19 @@ from pathlib import Path
 
 import bpy
 from bpy.props import BoolProperty, IntProperty, StringProperty
-from mathutils import Matrix
 
 from ...engine import InvoluteError
+from ...engine.formats.picture_kinds import SUFFIXES
 from ...engine.sequence import Frame
 from ..grease_pencil import cels, state, writing
 from ..grease_pencil.core.pixel_map import PixelMap, front_view, on_empty
 from ..grease_pencil.stored_trace import Picture
 from ..language import message
 from ..tracing.background import JobOperator
-from ..tracing.file_choice import ChosenFiles, FileChoice
+from ..tracing.file_choice import ChosenFiles, FileChoice, files_shown
 from ..tracing.placing import place_drawing, placing_values
 from ..tracing.settings_layout import draw_placing, draw_sequence, draw_settings
-from ..tracing.trace import new_object
+from ..tracing.trace import make_active, new_object
 from ..tracing.trace_settings import (
     PlacingOptions,
     TraceOptions,
@@ -28,6 +28,7 @@ from ..tracing.trace_settings import (
     engine_settings,
     take_from_sidebar,
 )
+from ..view.framing import look_straight_at
 from .playing import frames_of_empty, frames_of_files, plays_frames
 from .sequence_job import SequenceJob, parts_folder
 
@@ -178,10 +179,15 @@ class INVOLUTE_OT_trace_sequence(
         obj.matrix_world = matrix
         context.scene.collection.objects.link(obj)
         self._target = obj.name
+        if self._in_sight(context):
+            make_active(context, obj, outlined=False)
+            context.view_layer.update()
+            look_straight_at(context, obj, self._pixel_map, size)
         return obj
 
-    def _placed(self, context: bpy.types.Context, size: tuple[int, int]) -> tuple[PixelMap, Matrix]:
-        return place_drawing(context, size, self.place, self.pixels_per_metre)
+    def _in_sight(self, context: bpy.types.Context) -> bool:
+        """May the view turn to what was traced? Not of an artist who is at something else."""
+        return context.mode == "OBJECT" and not (bpy.app.background or self.is_repeat())
 
     def finish(self, context: bpy.types.Context, job: SequenceJob) -> set[str]:
         """Select the object and say what came of it."""
@@ -193,11 +199,10 @@ class INVOLUTE_OT_trace_sequence(
             return {"CANCELLED"}
         obj = bpy.data.objects.get(self._target)
         if obj is not None:
-            for other in context.selected_objects:
-                other.select_set(False)
-            obj.select_set(True)
             if context.mode == "OBJECT":
-                context.view_layer.objects.active = obj
+                make_active(context, obj, outlined=not self._in_sight(context))
+            else:
+                obj.select_set(True)
         if job.unaligned:
             from ...command.sequence_command import unaligned
 
@@ -221,6 +226,7 @@ class INVOLUTE_OT_import_sequence(
     bl_idname = "involute.import_sequence"
     bl_label = "Trace Drawing Sequence"
 
+    filter_glob: files_shown(SUFFIXES)
     resume: resume_property()
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:

@@ -1,6 +1,6 @@
 """From pictures to Grease Pencil objects.
 
-trace, import_scan                 the operators that trace
+trace, import_scan, paste          the operators that trace
 trace_again, live                  the same picture again, in place; by itself if wanted
 use_defaults, use_preset           settings at one click; new scenes begin with the defaults
 trace_settings, settings_layout    the engine's settings as properties, and how they are shown

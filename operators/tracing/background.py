@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sys
+
 import bpy
 
 from ...engine import InvoluteError
@@ -11,6 +13,7 @@ from ..view.view_state import redraw_sidebars
 from .trace_settings import take_from_sidebar
 
 _TICK = 0.1  # seconds between two looks at the job
+_QUIETLY = {"-q", "--quiet"}  # Blender's own options, and ours behind its "--"
 _LAST_STEP = 5.0  # seconds that a trace is given to stop, where it looks up about every second
 # While one of these waits for the mouse, objects and undo steps must not come in between.
 _AT_WORK = ("TRANSFORM_OT", "GREASE_PENCIL_OT", "SCULPT_OT", "PAINT_OT", "MESH_OT", "CURVE_OT")
@@ -117,7 +120,7 @@ class JobOperator:
         job = self._begun(context)
         if job is None:
             return {"CANCELLED"}
-        job.run()
+        _run_aloud(job)
         self.take(context, job)
         return self.finish(context, job)
 
@@ -145,6 +148,18 @@ class JobOperator:
         if jobs.current is self._job:
             jobs.current = None
         redraw_sidebars(context)
+
+
+def _run_aloud(job: jobs.Job) -> None:
+    """Run it; `blender -b` says what became of each picture, unless it was told to be quiet."""
+    if not bpy.app.background or _QUIETLY & set(sys.argv):
+        job.run()
+        return
+    from ...command.progress_display import ProgressDisplay
+
+    with ProgressDisplay(job.pictures, tells=True) as display:
+        job.heard = display.done
+        job.run()
 
 
 def is_at_work(context: bpy.types.Context) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import bpy
@@ -10,6 +10,14 @@ from bpy.props import CollectionProperty, StringProperty
 from bpy_extras.io_utils import ImportHelper
 
 from ...engine.formats.picture_kinds import SUFFIXES
+from ..language import reported
+
+TRACED = (*SUFFIXES, ".svg")  # an SVG's lines are taken as they are and routed anew
+
+
+def files_shown(suffixes: Sequence[str]) -> object:
+    """The property that tells Blender's file browser which files to show."""
+    return StringProperty(default=";".join(f"*{suffix}" for suffix in suffixes), options={"HIDDEN"})
 
 
 class ChosenFiles:
@@ -26,20 +34,8 @@ class ChosenFiles:
         return [file.name for file in self.files if file.name]
 
 
-class FileChoice(ChosenFiles, ImportHelper):
-    """Mixin for operators that let the user choose pictures and hand them to another operator."""
-
-    bl_options = {"REGISTER"}  # the trace that they start is the step to undo
-
-    filename_ext = ""
-    filter_glob: StringProperty(
-        default=";".join(f"*{suffix}" for suffix in SUFFIXES), options={"HIDDEN"}
-    )
-
-    @property
-    def folder(self) -> str:
-        """The folder that was chosen."""
-        return self.directory or str(Path(self.filepath).parent)
+class Handing:
+    """Mixin for operators that find pictures and hand them to the operator that traces."""
 
     def hand_to(self, operator: Callable[..., set[str]], **options: object) -> set[str]:
         """Run another operator, in the background where there is a window; pass on its report."""
@@ -47,6 +43,20 @@ class FileChoice(ChosenFiles, ImportHelper):
         try:
             result = operator(way, **options)
         except RuntimeError as problem:
-            self.report({"ERROR"}, str(problem).strip().removeprefix("Error: "))
+            self.report({"ERROR"}, reported(problem))
             return {"CANCELLED"}
         return {"CANCELLED"} if result == {"CANCELLED"} else {"FINISHED"}
+
+
+class FileChoice(Handing, ChosenFiles, ImportHelper):
+    """Mixin for operators that let the user choose pictures and hand them to another operator."""
+
+    bl_options = {"REGISTER"}  # the trace that they start is the step to undo
+
+    filename_ext = ""
+    filter_glob: files_shown(TRACED)
+
+    @property
+    def folder(self) -> str:
+        """The folder that was chosen."""
+        return self.directory or str(Path(self.filepath).parent)

@@ -28,7 +28,11 @@ def put_behind(
         size: (width, height) of the drawing in pixels; a picture of another size lies otherwise.
     """
     image = _image_of(source)
-    if image is None or tuple(image.size) != tuple(size):
+    if image is None:
+        return None
+    if tuple(image.size) != tuple(size):
+        if not image.users:  # it was loaded for this
+            bpy.data.images.remove(image)
         return None
     empty = bpy.data.objects.new(f"{obj.name} Scan", None)
     empty[_MARK] = True
@@ -59,11 +63,13 @@ def scan_of(obj: bpy.types.Object) -> bpy.types.Object | None:
 
 
 def _image_of(source: Source) -> bpy.types.Image | None:
+    from ...engine.vector_page import is_vector  # brings in OpenCV
+
     if source.empty or source.page:
         return None  # it is shown already; Blender knows only the first page of a file
     if source.image:
         return bpy.data.images.get(source.image)
-    if not isinstance(source.picture, str):
+    if not isinstance(source.picture, str) or is_vector(source.picture):
         return None
     try:
         return bpy.data.images.load(source.picture, check_existing=True)

@@ -16,6 +16,7 @@ from ..grease_pencil.core.pixel_map import PixelMap, front_view, on_empty
 from ..grease_pencil.writing import Into
 from ..language import message
 from ..view.framing import look_straight_at
+from ..view.view_state import view_of
 from . import sources
 from .background import JobOperator
 from .file_choice import ChosenFiles
@@ -98,6 +99,9 @@ class INVOLUTE_OT_trace(JobOperator, ChosenFiles, PlacingOptions, TraceOptions, 
             return {"CANCELLED"}
         for result in failed:
             self.report({"WARNING"}, f"{result.source.name}: {message(result.problem)}")
+        for result in done:
+            for sentence in result.drawing.warnings:
+                self.report({"WARNING"}, f"{result.source.name}: {message(sentence)}")
         self._report_counts([result.drawing for result in done])
         return {"FINISHED"}
 
@@ -150,22 +154,19 @@ class INVOLUTE_OT_trace(JobOperator, ChosenFiles, PlacingOptions, TraceOptions, 
 
     def _write(self, context: bpy.types.Context, done: Sequence[TracedSource]) -> None:
         """Whatever the artist did meanwhile, what was traced gets a place."""
-        frame = context.scene.frame_current
+        frame, view = context.scene.frame_current, view_of(context)
         target = bpy.data.objects.get(self._target) if self._target else None
         if cels.is_grease_pencil(target) and target.data.is_editable:
             for result in done:
                 pixel_map = front_view(result.drawing.size)
-                put(target, result, frame, pixel_map, order=self.order, into=self._into)
+                view.key = put(target, result, frame, pixel_map, order=self.order, into=self._into)
             return
         objects = [self._new(context, result, frame) for result in done]
         if context.mode == "OBJECT":
-            for other in context.selected_objects:
-                other.select_set(False)
-            context.view_layer.objects.active = objects[0]
-            if bpy.app.background or self.is_repeat():
-                objects[0].select_set(True)
-            else:
-                look_straight_at(context, objects)  # and not selected: no outline hides the strokes
+            make_active(context, objects[0], outlined=bpy.app.background or self.is_repeat())
+            if not (bpy.app.background or self.is_repeat()):
+                pixel_map = state.pixel_map_in(objects[0].data)
+                look_straight_at(context, objects[0], pixel_map, done[0].drawing.size)
 
     def _new(
         self, context: bpy.types.Context, result: TracedSource, frame: int
@@ -180,10 +181,18 @@ class INVOLUTE_OT_trace(JobOperator, ChosenFiles, PlacingOptions, TraceOptions, 
         obj = new_object(result.source.name)
         obj.matrix_world = matrix
         (context.collection or context.scene.collection).objects.link(obj)
-        put(obj, result, frame, pixel_map, order=self.order)
+        view_of(context).key = put(obj, result, frame, pixel_map, order=self.order)
         if self.show_scan:
             put_behind(obj, result.source, size, pixel_map)
         return obj
+
+
+def make_active(context: bpy.types.Context, obj: bpy.types.Object, *, outlined: bool) -> None:
+    """Make a new drawing the active object; not selected, no outline hides its strokes."""
+    for other in context.selected_objects:
+        other.select_set(False)
+    obj.select_set(outlined)
+    context.view_layer.objects.active = obj
 
 
 def is_image_empty(obj: bpy.types.Object | None) -> bool:
@@ -225,8 +234,8 @@ def put(
     *,
     order: str = "PAGE",
     into: Into | None = None,
-) -> None:
-    """Write a traced drawing into an object, strokes and routing state.
+) -> int:
+    """Write a traced drawing into an object, strokes and routing state; return its key.
 
     An image Empty that shows the picture takes precedence over `pixel_map`.
 
@@ -243,6 +252,7 @@ def put(
         drawing = by_hand(drawing)
     key = state.add(obj.data, drawing, pixel_map, source.name, source.noted)
     writing.write(obj.data, frame, drawing, pixel_map, key, clear=into is None, into=into)
+    return key
 
 
 def by_hand(drawing: Drawing) -> Drawing:

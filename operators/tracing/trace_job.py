@@ -12,6 +12,7 @@ from .recent import KEPT_STAGES, recall, remember
 from .sources import Source
 
 if TYPE_CHECKING:
+    from ...command.batch import Outcome
     from ...engine import Drawing
 
 STAGES = {
@@ -43,12 +44,28 @@ class TraceJob(Job):
         self.settings = settings
         self.results: list[TracedSource] = []
 
+    @property
+    def pictures(self) -> int:
+        """How many sources there are."""
+        return len(self.sources)
+
     def work(self) -> None:
         """Trace one source after the other; one that fails does not stop the others."""
         for source in self.sources:
             if self.cancelled:
                 return
             self.results.append(self._trace(source))
+            if self.heard is not None:
+                self.heard(source.name, self._outcome(self.results[-1]))
+
+    def _outcome(self, result: TracedSource) -> Outcome:
+        """As the command line tells it."""
+        from ...command.batch import Outcome, Task, summary
+
+        task = Task(result.source.name, (), self.settings)
+        if result.drawing is None:
+            return Outcome(task, {}, result.problem)
+        return Outcome(task, summary(result.drawing))
 
     def _trace(self, source: Source) -> TracedSource:
         from ...engine import vectorize

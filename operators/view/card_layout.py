@@ -5,6 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import NamedTuple
 
+import numpy as np
+
+Array = np.ndarray
+
 _WIDTH, _HEIGHT, _GAP, _MARGIN, _AWAY = 92.0, 104.0, 8.0, 12.0, 46.0  # px at scale 1
 _SMALLEST = 0.4  # of the interface's scale; smaller cards can't be read
 
@@ -46,14 +50,21 @@ def free_part(size: tuple[float, float], covers: Iterable[Card]) -> Card:
 
 
 def layout(
-    count: int, anchor: tuple[float, float], free: Card, scale: float = 1.0
+    count: int,
+    anchor: tuple[float, float],
+    free: Card,
+    scale: float = 1.0,
+    lines: Array | None = None,
 ) -> tuple[list[Card], float]:
-    """Rows of cards above a junction, or below it where there is no room; inside the free part.
+    """Rows of cards beside a junction, where they cover least of its lines; inside the free part.
+
+    Above, where that is as good as anywhere else.
 
     Args:
         anchor: where the junction appears.
         free: the part of the region that nothing covers.
         scale: of the interface.
+        lines: (N, 2) places of the region that are better seen.
 
     Returns:
         The cards, and the scale that they have: smaller where they would not fit.
@@ -64,18 +75,42 @@ def layout(
     width, height, gap, margin = (scale * v for v in (_WIDTH, _HEIGHT, _GAP, _MARGIN))
     columns = _columns(count, free, scale)
     rows = -(-count // columns)
-    across, tall = columns * (width + gap) - gap, rows * (height + gap) - gap
-    left = _kept_in(anchor[0] - across / 2, free.x + margin, free.x + free.width - across - margin)
-    bottom = anchor[1] + scale * _AWAY
-    if bottom + tall + margin > free.y + free.height:
-        bottom = anchor[1] - scale * _AWAY - tall
-    bottom = _kept_in(bottom, free.y + margin, free.y + free.height - tall - margin)
+    size = columns * (width + gap) - gap, rows * (height + gap) - gap
+    shown = np.vstack([np.zeros((0, 2)) if lines is None else lines, anchor])
+    blocks = [Card(x, y, *size) for x, y in _places(anchor, size, free, scale * _AWAY, margin)]
+    left, bottom, *_ = min(blocks, key=lambda block: _covered(block, shown, margin))
     cards = []
     for k in range(count):
         row, column = divmod(k, columns)
         y = bottom + (rows - 1 - row) * (height + gap)
         cards.append(Card(left + column * (width + gap), y, width, height))
     return cards, scale
+
+
+def _places(
+    anchor: tuple[float, float], size: tuple[float, float], free: Card, away: float, margin: float
+) -> list[tuple[float, float]]:
+    """Lower left corners of a block of cards around a junction: above, below, left, right; near
+    and farther away."""
+    (x, y), (across, tall) = anchor, size
+    found = []
+    for far in (away, 2 * away, 3 * away):
+        found += [(x - across / 2, y + far), (x - across / 2, y - far - tall)]
+        found += [(x - far - across, y - tall / 2), (x + far, y - tall / 2)]
+    return [
+        (
+            _kept_in(left, free.x + margin, free.x + free.width - across - margin),
+            _kept_in(bottom, free.y + margin, free.y + free.height - tall - margin),
+        )
+        for left, bottom in found
+    ]
+
+
+def _covered(block: Card, places: Array, margin: float) -> int:
+    """How many places lie under a block of cards or close to it."""
+    x, y = places.T
+    across = (x >= block.x - margin) & (x <= block.x + block.width + margin)
+    return int((across & (y >= block.y - margin) & (y <= block.y + block.height + margin)).sum())
 
 
 def card_at(cards: list[Card], x: float, y: float) -> int:

@@ -2,7 +2,24 @@
 
 from __future__ import annotations
 
+from math import pi
+from typing import TYPE_CHECKING
+
 import bpy
+import numpy as np
+from mathutils import Quaternion, Vector
+
+from .card_layout import Card
+from .on_screen import free_part_of
+
+if TYPE_CHECKING:
+    from ..grease_pencil.core.pixel_map import PixelMap
+
+Array = np.ndarray
+
+_FILLED = 0.9  # of what is free of the viewport; the rest is margin
+# A drawing lies in the XZ plane of its object; so is it seen from the front.
+_FROM_THE_FRONT = Quaternion((1.0, 0.0, 0.0), pi / 2)
 
 
 def largest_view(
@@ -28,20 +45,49 @@ def looks_through_camera(context: bpy.types.Context) -> bool:
     )
 
 
-def look_straight_at(context: bpy.types.Context, objects: list[bpy.types.Object]) -> None:
-    """Turn the view to face the drawings and fill it with them; a camera's view stays."""
+def look_straight_at(
+    context: bpy.types.Context, obj: bpy.types.Object, pixel_map: PixelMap, size: tuple[int, int]
+) -> None:
+    """Turn the view to face a drawing and fill what is free of it; a camera's view stays.
+
+    Args:
+        pixel_map: where the pixels of its page lie in the object.
+        size: (width, height) of the page.
+    """
     view = largest_view(context)
     if view is None or looks_through_camera(context):
         return
-    area, region, _ = view
-    before = [obj for obj in context.selected_objects if obj not in objects]
-    for obj in before:
-        obj.select_set(False)
-    for obj in objects:
-        obj.select_set(True)
+    area, region, region_3d = view
+    turn = obj.matrix_world.to_quaternion() @ _FROM_THE_FRONT
+    region_3d.view_perspective, region_3d.view_rotation = "ORTHO", turn
+    region_3d.update()
     with context.temp_override(window=context.window, area=area, region=region):
-        bpy.ops.view3d.view_axis(type="FRONT", align_active=True)
-        view[2].view_perspective = "ORTHO"
-        bpy.ops.view3d.view_selected()
-    for obj in objects:
-        obj.select_set(False)
+        free = free_part_of(context)
+    matrix = np.array(obj.matrix_world)
+    corners = np.array([(0, 0), (size[0], 0), size, (0, size[1])], float)
+    places = pixel_map.to_object(corners) @ matrix[:3, :3].T + matrix[:3, 3]
+    axes = np.array(turn.to_matrix())  # columns: right, up and toward the eye
+    seen = 0.5 * region.width * region_3d.window_matrix[0][0]  # px per metre
+    middle, scale = fitted(places @ axes, free, (region.width, region.height))
+    region_3d.view_distance *= seen / scale
+    region_3d.view_location = Vector((axes @ middle).tolist())
+
+
+def fitted(places: Array, free: Card, size: tuple[float, float]) -> tuple[Array, float]:
+    """What an orthographic view looks at, and how large, to show places in a part of its region.
+
+    Args:
+        places: (N, 3) along the view's own axes: right, up, toward the eye.
+        free: the part of the region that nothing covers.
+        size: of the region, px.
+
+    Returns:
+        (3,) what lies in the middle of the region, along the same axes; px per unit.
+    """
+    low, high = places.min(0), places.max(0)
+    across, up, _ = np.maximum(high - low, 1e-9)
+    scale = _FILLED * min(free.width / across, free.height / up)
+    off = np.array([free.x + free.width / 2, free.y + free.height / 2]) - np.array(size) / 2
+    middle = (low + high) / 2
+    middle[:2] -= off / scale
+    return middle, float(scale)

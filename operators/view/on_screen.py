@@ -115,7 +115,10 @@ def cards_of(context: bpy.types.Context, shown: Shown) -> tuple[list[Card], floa
     if not np.isfinite(anchor).all():
         anchor = (region.width / 2, region.height / 2)
     scale = context.preferences.system.ui_scale
-    return layout(len(junction.alternatives), tuple(anchor), free_part_of(context), scale)
+    parts = [near_part(shown.trace.drawing, half) for half in junction.half_branches]
+    lines = places_on_screen(context, shown, np.concatenate(parts))
+    free = free_part_of(context)
+    return layout(len(junction.alternatives), tuple(anchor), free, scale, lines)
 
 
 def free_part_of(context: bpy.types.Context) -> Card:

@@ -26,6 +26,9 @@ if TYPE_CHECKING:
     from ...engine import Junction
 
 
+CERTAIN = 80.0  # percent; of scans a sixth of the junctions, and nine in ten of them are right
+
+
 class INVOLUTE_PG_view(bpy.types.PropertyGroup):
     """Kept in the window manager."""
 
@@ -56,7 +59,7 @@ class INVOLUTE_PG_view(bpy.types.PropertyGroup):
     certainty: FloatProperty(
         name="Certainty",
         description="Least probability of the routing in force",
-        default=95.0,
+        default=CERTAIN,
         min=50.0,
         max=100.0,
         precision=0,
@@ -171,8 +174,8 @@ def view_of(context: bpy.types.Context) -> INVOLUTE_PG_view:
 
 
 def shown_in(context: bpy.types.Context, obj: bpy.types.Object | None = None) -> Shown | None:
-    """What the active object (or another one) shows at the current frame; None = no trace."""
-    obj = obj or context.active_object
+    """What an object shows at the current frame, or the one that is worked on; None = no trace."""
+    obj = obj or looked_at(context)
     if not cels.is_grease_pencil(obj):
         return None
     frame = context.scene.frame_current
@@ -182,6 +185,22 @@ def shown_in(context: bpy.types.Context, obj: bpy.types.Object | None = None) ->
     view = view_of(context)
     key = view.key if view.key in keys else keys[0]
     return Shown(obj, frame, state.load(obj.data, key, frame), view)
+
+
+def looked_at(context: bpy.types.Context) -> bpy.types.Object | None:
+    """The object that is worked on: the active one, or the drawing that was looked at last.
+
+    A click beside the lines makes whatever lies behind them the active object, and in Draw Mode
+    the one that is drawn on stays it; neither must take the drawing out of the artist's hands.
+    """
+    active, key = context.active_object, view_of(context).key
+    frame = context.scene.frame_current
+    if not key or (cels.is_grease_pencil(active) and state.keys_at(active.data, frame)):
+        return active
+    for obj in context.visible_objects:
+        if cels.is_grease_pencil(obj) and key in state.keys_at(obj.data, frame):
+            return obj
+    return active
 
 
 def select(shown: Shown, junction: int) -> None:

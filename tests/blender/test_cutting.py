@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from itertools import pairwise
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -301,3 +302,19 @@ def test_pen_lifts_need_corners(bpy, part):
     ready(bpy, part, cross(part))
     with pytest.raises(RuntimeError, match="looked for corners"):
         bpy.ops.involute.pen_lifts(bias=0.5)
+
+
+def test_what_a_gesture_can_not_do_is_told(bpy, part):
+    """As a report, not as a traceback over the drawing."""
+    obj, _ = ready(bpy, part, two_lines(part))
+    told = []
+    gesture = SimpleNamespace(report=lambda kind, said: told.append((kind, said)))
+    do = part("operators.junctions.path_gesture").PathGesture.do
+    before = len(drawing_of(part, obj).strokes)
+    assert do(gesture, bpy.ops.involute.join, first=0, second=0) == {"CANCELLED"}
+    ((kind, said),) = told
+    assert kind == {"ERROR"}
+    assert "Error" not in said
+    assert said.endswith(".")
+    assert do(gesture, bpy.ops.involute.cut, path=path((80, 110), (80, 130))) == {"FINISHED"}
+    assert len(drawing_of(part, obj).strokes) == before + 1

@@ -222,6 +222,18 @@ def test_cards_stay_inside_what_nothing_covers(part, anchor, scale, count):
     assert cards.card_at(row, row[0].x - 2, row[0].y) == -1
 
 
+def test_cards_leave_the_lines_to_be_seen(part):
+    """Lines go up to both sides: the cards lie below, though there is room above."""
+    cards = part("operators.view.card_layout")
+    free = cards.Card(0, 0, 800, 600)
+    along = np.linspace(0, 150, 40)
+    up = np.concatenate([np.c_[400 + side * along, 300 + along] for side in (-1, 1)])
+    row, _ = cards.layout(4, (400, 300), free, 1.0, up)
+    assert all(card.y + card.height < 300 for card in row)
+    down, _ = cards.layout(4, (400, 300), free, 1.0, np.c_[up[:, 0], 600 - up[:, 1]])
+    assert all(card.y > 300 for card in down)
+
+
 def test_overlay_geometry(part):
     geometry, colors = part("ui.overlay.overlay_geometry"), part("ui.overlay.colors")
     table = part("operators.view.junction_table").JunctionTable(
@@ -295,6 +307,9 @@ def test_doubtful_keyframes_are_counted_and_found(bpy, part):
         assert bpy.ops.involute.doubtful_frame(direction="NEXT") == {"FINISHED"}
         seen.append(bpy.context.scene.frame_current)
     assert seen == [5, 9, 5]
+    assert bpy.ops.involute.go_to_frame(frame=9) == {"FINISHED"}
+    assert bpy.context.scene.frame_current == 9
+    assert bpy.ops.involute.go_to_frame(frame=5) == {"FINISHED"}
     traces[str(state.keys_at(obj.data, 9)[0])]["doubtful"] = 0
     assert bpy.ops.involute.doubtful_frame(direction="PREVIOUS") == {"CANCELLED"}
     bpy.ops.involute.accept(probability=0)  # what is decided is no doubt any more

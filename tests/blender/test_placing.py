@@ -5,6 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from .example_drawings import cross, grid
+from .test_grease_pencil import make
+
 SIZE = (160, 120)
 CORNERS = np.array([[0, 0], [160, 0], [160, 120], [0, 120]], float)
 
@@ -104,3 +107,34 @@ def test_the_trace_stands_there(bpy, part, corners, camera, tmp_path):
     reach = np.linalg.norm(middle[1] - middle[0])
     near = min(np.abs(ends - middle).max(), np.abs(ends[::-1] - middle).max())
     assert near < 0.12 * reach
+
+
+def test_the_view_shows_all_of_a_page_in_what_is_free(part):
+    """A sidebar on the right: the page lies left of it, as large as fits, with a margin."""
+    framing, card = part("operators.view.framing"), part("operators.view.card_layout").Card
+    places = np.array([(-1.0, 2, -1), (-1, 2, 1), (3, 2, 1), (3, 2, -1)])[:, [0, 2, 1]]
+    middle, scale = framing.fitted(places, card(100, 0, 400, 600), (800, 600))
+    seen = (places - middle)[:, :2] * scale + (400, 300)
+    assert np.allclose(seen.min(0)[0], 120)
+    assert np.allclose(seen.max(0)[0], 480)
+    assert np.allclose((seen.min(0) + seen.max(0))[1] / 2, 300)
+
+
+def test_a_click_beside_the_lines_keeps_the_drawing_in_the_sidebar(bpy, part, tmp_path):
+    """What lies behind becomes the active object; another drawing takes over, though."""
+    view_state = part("operators.view.view_state")
+    obj, _ = make(bpy, part, cross(part))
+    other, _ = make(bpy, part, grid(part, 3))
+    bpy.context.view_layer.objects.active = obj
+    view_state.select(view_state.shown_in(bpy.context), 0)
+    bpy.ops.mesh.primitive_cube_add()
+    assert view_state.shown_in(bpy.context).object == obj
+    assert bpy.ops.involute.lock(junction=0) == {"FINISHED"}
+    bpy.ops.object.grease_pencil_add(type="EMPTY")  # as in Draw Mode of a 2D scene
+    assert view_state.shown_in(bpy.context).object == obj
+    bpy.context.view_layer.objects.active = other
+    assert view_state.shown_in(bpy.context).object == other
+    obj.hide_viewport = True
+    bpy.context.view_layer.objects.active = bpy.data.objects["Cube"]
+    bpy.context.view_layer.update()
+    assert view_state.shown_in(bpy.context) is None

@@ -126,6 +126,24 @@ def test_damaged_state_is_one_sentence(bpy, part, traced, forget, damage):
         np.testing.assert_array_equal(points, old)
 
 
+@pytest.mark.parametrize("name", ["unmarked", "earlier", "path", "page", "image", "doubtful"])
+@pytest.mark.parametrize("odd", [7, -1.5, "text", b"\1", [1, 2], {"a": 5}], ids=repr)
+def test_what_only_helps_may_be_damaged(bpy, part, traced, forget, name, odd):
+    """Junctions are decided as ever, whatever became of the picture's name or of earlier ways."""
+    obj, pixel_map = traced
+    put(entry_of(obj), name, odd)
+    forget()
+    shown_in = part("operators.view.view_state").shown_in
+    ways = shown_in(bpy.context).trace.drawing.junctions[0].alternatives
+    for alternative in (1, 0):
+        assert bpy.ops.involute.reroute(junction=0, alternative=alternative) == {"FINISHED"}
+        forget()
+        drawing = shown_in(bpy.context).trace.drawing
+        assert drawing.junctions[0].pairs == ways[alternative].pairs
+        assert len(strokes_in(part, obj, pixel_map)) == len(drawing.strokes)
+    assert bpy.ops.involute.lock(junction=0) == {"FINISHED"}
+
+
 def test_state_that_is_damaged_anyhow_loses_no_stroke(bpy, part, traced, forget):
     """Bytes and numbers of what is kept, changed at random: in words, or as if nothing were."""
     seed = secrets.randbits(32)
@@ -267,6 +285,60 @@ def test_undo_takes_routing_and_strokes_back(bpy, part, traced, mode):
     assert not now().junctions[2].locked
 
 
+@pytest.mark.parametrize("saved", [False, True])
+def test_undo_back_into_edit_mode_brings_strokes_without_their_properties(
+    bpy, part, traced, forget, tmp_path, saved
+):
+    """Blender loads the file of when Edit Mode was entered, and strokes of a later step."""
+    obj, pixel_map = traced
+    name = obj.name
+    bpy.ops.ed.undo_push(message="start")
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.ed.undo_push(message="Toggle Edit Mode")
+    bpy.ops.involute.reroute(junction=1, alternative=1)
+    bpy.ops.ed.undo_push(message="reroute")
+    wanted = drawing_of(part, obj, frame=1).routing.partner
+    bpy.ops.object.mode_set(mode="OBJECT")
+    bpy.ops.ed.undo_push(message="Toggle Edit Mode")
+    bpy.data.objects[name].location.x += 1
+    bpy.ops.ed.undo_push(message="Move")
+    bpy.ops.ed.undo()
+    bpy.ops.ed.undo()
+    if saved:
+        path = str(tmp_path / "undone.blend")
+        bpy.ops.wm.save_as_mainfile(filepath=path)
+        bpy.ops.wm.open_mainfile(filepath=path, load_ui=False)
+        forget()
+    obj = bpy.data.objects[name]
+    drawing = drawing_of(part, obj, frame=1)
+    np.testing.assert_array_equal(drawing.routing.partner, wanted)
+    assert_same(strokes_in(part, obj, pixel_map), drawing.strokes)
+    bpy.context.view_layer.objects.active = obj
+    bpy.ops.involute.lock(junction=2)  # and it can be worked on
+    assert drawing_of(part, obj, frame=1).junctions[2].locked
+
+
+def test_undo_of_another_trace_in_edit_mode(bpy, part, traced):
+    """What was stored of the trace before went with it; its strokes come back."""
+    obj, pixel_map = traced
+    name = obj.name
+    state = part("operators.grease_pencil.state")
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.ed.undo_push(message="start")
+    (key,) = state.keys_at(obj.data, 1)
+    before = drawing_of(part, obj, frame=1)
+    settings = part("engine").Settings(
+        **{**before.settings.as_dict(), "smoothing": 0.9, "align": ()}
+    )
+    new = before.restroked(settings)
+    part("operators.grease_pencil.retracing").retrace(obj.data, 1, key, new)
+    bpy.ops.ed.undo_push(message="Trace Again")
+    bpy.ops.ed.undo()
+    obj = bpy.data.objects[name]
+    assert state.keys_at(obj.data, 1) == [key]
+    assert_same(strokes_in(part, obj, pixel_map), drawing_of(part, obj, frame=1).strokes)
+
+
 def test_what_undo_took_back_is_saved(bpy, part, traced, forget, tmp_path):
     obj, pixel_map = traced
     bpy.ops.object.mode_set(mode="EDIT")
@@ -361,6 +433,23 @@ def test_joined_objects_keep_their_junctions(bpy, part, traced, forget, tmp_path
     look_at_the_smaller()
     view.key = keys[1]
     reroute_and_compare(bpy, part, bpy.data.objects["Ink"])
+
+
+def test_copies_decided_apart_and_joined_keep_junctions(bpy, part, traced, forget):
+    """Their strokes are of one trace, in two routings; either object remembers its own."""
+    first, _ = traced
+    bpy.ops.object.duplicate()
+    second = bpy.context.active_object
+    bpy.ops.involute.reroute(junction=2, alternative=1)
+    bpy.ops.involute.reroute(junction=5, alternative=1)
+    assert len(curves_of(part, second)) > len(curves_of(part, first))
+    select(bpy, second, first)
+    bpy.ops.object.join()
+    forget()
+    assert len(bpy.data.objects) == 1
+    assert len(shown(bpy, part).trace.drawing.junctions) == 9
+    assert bpy.types.INVOLUTE_PT_junctions.poll(bpy.context)
+    assert bpy.ops.involute.lock(junction=1) == {"FINISHED"}
 
 
 def test_separated_strokes_keep_their_junctions(bpy, part, traced, tmp_path):

@@ -293,3 +293,52 @@ assert not {{"cv2", "torch", "networkx"}} & set(sys.modules)
     )
     assert done.returncode == 0, done.stdout + done.stderr
     print(done.stdout.splitlines()[-1])
+
+
+def test_an_svg_of_another_program_is_routed_anew(bpy, part, tmp_path):
+    """Dropped or imported: its lines are taken as they are; nothing of it is left beside them."""
+    path = tmp_path / "cross.svg"
+    path.write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 200 100">'
+        '<path d="M 10 50 L 100 50 L 190 50" fill="none" stroke="#204080" stroke-width="3"/>'
+        '<path d="M 100 10 L 100 90" fill="none" stroke="#204080" stroke-width="3"/></svg>'
+    )
+    assert ".svg" in part("ui.panels.menus").INVOLUTE_FH_scan.bl_file_extensions.split(";")
+    before = len(bpy.data.images)
+    assert bpy.ops.involute.import_scan(filepath=str(path)) == {"FINISHED"}
+    obj = bpy.context.active_object
+    drawing = drawing_of(part, obj)
+    assert (len(drawing.junctions), len(drawing.strokes)) == (1, 2)
+    assert drawing.size == (200, 100)
+    assert len(bpy.data.images) == before
+    assert bpy.ops.involute.trace_again(even_width=True) == {"FINISHED"}
+
+
+@pytest.mark.parametrize("word", [None, "--quiet"])
+def test_without_a_window_each_page_is_told(bpy, scan, tmp_path, capfd, monkeypatch, word):
+    """As the command line does; Blender prints reports only after all of it is over."""
+    other = tmp_path / "missing.png"
+    monkeypatch.setattr(sys, "argv", ["blender", "-b", *([word] if word else [])])
+    files = [{"name": scan.name}, {"name": other.name}]
+    assert bpy.ops.involute.trace(directory=str(tmp_path), files=files) == {"FINISHED"}
+    said = [line for line in capfd.readouterr().err.splitlines() if line.startswith("involute: ")]
+    if word:
+        assert said == []
+        return
+    assert len(said) == 2
+    assert said[0].startswith("involute: page: 2 strokes, 0 doubtful junctions, ")
+    assert said[1].startswith("involute: missing: There is no file ")
+
+
+def test_a_copied_file_is_traced_from_the_clipboard(bpy, part, scan, tmp_path):
+    """What is copied in a file manager: addresses or paths; without a window there is no more."""
+    paste = part("operators.tracing.paste")
+    other = page(part, tmp_path / "with space.png")
+    text = f"{scan}\n{other.as_uri()}\n{tmp_path / 'missing.png'}\nsome words\n"
+    assert paste.copied_files(text) == (str(tmp_path), ["page.png", "with space.png"])
+    with pytest.raises(part("engine").InvoluteError, match="sees no picture"):
+        paste.copied_files("some words")
+    with pytest.raises(RuntimeError, match="sees no picture"):
+        bpy.ops.involute.paste()
+    assert paste.pasted(bpy.context) is None
+    assert {area.type for area in bpy.context.window.screen.areas} & {"VIEW_3D"}

@@ -65,6 +65,52 @@ def texts(node: ast.expr) -> Iterator[str]:
         yield from (t for value in node.values for t in texts(value))
 
 
+# The modules of the engine whose sentences are seen in Blender, and those of them for programs.
+ENGINE = (
+    *("fidelity", "drawing", "vector_page", "scan/preparing", "scan/registration"),
+    *("scan/screentone", "scan/image_file", "scan/picture", "scan/polarity", "scan/movie"),
+    *("scan/psd", "centerline/backends", "routing/network", "sequence/frames"),
+    "formats/svg_lines",
+)
+FOR_PROGRAMS = (
+    "Lines that follow each other",
+    "There is no stroke",
+    "There is no junction",
+    "Give the path of an image",
+    "Can't trace",
+    "{0} holds values outside 0 to 1",
+    "The weights in {0} have no features",
+    "The step between frames",
+    "Can't read the frames",
+    "Reading {0} needs the library",
+)
+
+
+def sentences_of_the_engine() -> Iterator[str]:
+    """Whole sentences that stand in its code, what is filled in numbered."""
+    for name in ENGINE:
+        tree = ast.parse((ROOT / "engine" / f"{name}.py").read_text("utf-8"))
+        inside = {id(n.value) for n in ast.walk(tree) if isinstance(n, ast.Expr)}  # docstrings
+        filled = [n for n in ast.walk(tree) if isinstance(n, ast.JoinedStr)]
+        inside |= {id(value) for node in filled for value in node.values}
+        for node in ast.walk(tree):
+            said = None if id(node) in inside else template(node)
+            if said and said.endswith(".") and " " in said.strip():
+                yield said
+
+
+def template(node: ast.AST) -> str | None:
+    if isinstance(node, ast.Constant) and isinstance(node.value, str):
+        return node.value
+    if not isinstance(node, ast.JoinedStr):
+        return None
+    places = iter(range(len(node.values)))
+    return "".join(
+        value.value if isinstance(value, ast.Constant) else f"{{{next(places)}}}"
+        for value in node.values
+    )
+
+
 def of_settings(settings) -> set[str]:
     """The texts that the declarations of the settings bring into the sidebar."""
     seen = {*settings.GROUPS}
@@ -130,3 +176,34 @@ def test_texts_are_filled(bpy, part):
     label, message = part("operators.language").label, part("operators.language").message
     assert label("{done} of {count} frames", done=1, count=3) == "1 of 3 frames"
     assert message(part("engine").InvoluteError("a {brace}")) == "a {brace}"
+
+
+def test_sentences_of_the_engine_have_a_text(part):
+    known = set(part("operators.engine_sentences").SENTENCES)
+    said = {s for s in sentences_of_the_engine() if not s.startswith(FOR_PROGRAMS)}
+    assert len(said) > 30
+    assert sorted(said - known) == []
+    assert sorted(s for s in known if s.endswith(".") and s not in said) == []
+    for language in LANGUAGES:
+        assert sorted(known - part(f"ui.language.{language}").TEXTS.keys()) == []
+
+
+def test_a_filled_sentence_is_recognised(bpy, part, monkeypatch):
+    """With its names and numbers, the phrases in it, and the options by the sidebar's names."""
+    sentences = part("operators.engine_sentences")
+    german = part("ui.language.german").TEXTS
+    for name in ("pgettext_rpt", "pgettext_iface"):
+        monkeypatch.setattr(sentences, name, lambda text: german.get(text, text))
+    told = sentences.in_their_words
+    assert told("There is no file /a, b/it.png; check the path.") == (
+        "Es gibt keine Datei /a, b/it.png; den Pfad prüfen."
+    )
+    assert told(
+        "Left out as no part of the drawing: dark borders of the scan, 3 punched holes."
+    ) == ("Als nicht zur Zeichnung gehörig weggelassen: dunkle Ränder des Scans, 3 Lochungen.")
+    fidelity = part("engine.fidelity")
+    found = fidelity.Fidelity(0.5, 0.0, (), ())
+    (said,) = (told(sentence) for sentence in fidelity.warnings(found, False))
+    assert said.startswith("50% der Tusche sind nicht in der Zeichnung; “Liniensuche: ")
+    assert "--" not in said
+    assert told("Something that nobody knows.") == "Something that nobody knows."

@@ -49,10 +49,10 @@ def run(*arguments, **more) -> subprocess.CompletedProcess:
 def test_in_a_pipe_only_trouble_is_told(tmp_path, capsys):
     page(tmp_path / "in" / "a.png")
     (tmp_path / "in" / "notes.txt").write_text("words")
-    (tmp_path / "in" / "plan.pdf").write_text("%PDF")
+    (tmp_path / "in" / "plan.kra").write_text("PK")
     assert trace(tmp_path / "in", "-o", tmp_path / "out") == 0
     said = capsys.readouterr().err
-    assert said.startswith("involute: left out: notes.txt (not a picture); plan.pdf (PDF is not")
+    assert said.startswith("involute: left out: notes.txt (not a picture); plan.kra (Krita is not")
     assert len(said.splitlines()) == 1
     assert trace(tmp_path / "in", "-o", tmp_path / "out2", "--quiet") == 0
     assert capsys.readouterr().err == ""
@@ -268,6 +268,21 @@ def test_told_to_end_it_leaves_nothing(number, wait, tmp_path):
     for path in done:
         assert ".part" not in path.name
         assert Drawing.load(path).strokes
+
+
+def test_whatever_a_library_makes_of_it_is_being_stopped(monkeypatch, capsys):
+    """OpenCV says that NumPy failed when it is interrupted while it is loaded."""
+
+    def loading(*_):
+        try:
+            os.kill(os.getpid(), signal.SIGINT)
+            time.sleep(10)
+        except KeyboardInterrupt:
+            raise ImportError("numpy._core.multiarray failed to import") from None
+
+    monkeypatch.setattr(cli, "_run", loading)
+    assert cli.main(["inspect", "x"]) == cli.STOPPED
+    assert capsys.readouterr().err.startswith("involute: Stopped;")
 
 
 @pytest.mark.skipif(not Path("/proc/self/maps").exists(), reason="Linux tells what is loaded")

@@ -311,7 +311,7 @@ def test_the_schema_has_what_is_written(document):
     assert schema["properties"]["version"]["const"] == drawing_json.VERSION
     for room in ("graph", "routing", "strokes", "fills"):
         known = schema["properties"][room]
-        assert set(known["required"]) <= set(known["properties"]) == document[room].keys()
+        assert set(known["required"]) <= document[room].keys() <= set(known["properties"])
         for name, box in document[room].items():
             table = known["properties"][name]
             table = table.get("anyOf", [table])[0]

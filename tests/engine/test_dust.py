@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import cv2
 import numpy as np
-from involute.engine import Settings
+import pytest
+from involute.engine import Settings, vectorize
 from involute.engine.graph import Evidence
 from involute.engine.graph.removal.dust import remove_dust
 from involute.engine.values import LineMaps, PlanarGraph
@@ -69,3 +71,26 @@ def test_short_lines_that_hang_on_something_stay() -> None:
     bar, stem = np.array([[0.0, 50], [100, 50]]), np.array([[50.0, 50], [50, 52.5]])
     kept = _swept([bar, stem], [4.0] * 3, [1.0] * 3, Settings(min_length=5.0))
     assert kept.branch_count == 3
+
+
+@pytest.mark.parametrize("pen", [2.5, 4.0, 6.0])
+def test_round_dots_are_kept_wherever_they_lie(pen: float) -> None:
+    """Their skeleton is two pixels with one crest, or one pixel: neither makes them dust."""
+    rng = np.random.default_rng(7)
+    dots = [(50.0 + 54 * i, 40.0 + 60 * j) for i in range(11) for j in range(3)]
+    middle = np.array(dots) + rng.uniform(-1, 1, (len(dots), 2))
+    across = pen * np.tile(np.linspace(1.2, 2.2, 11), (3, 1)).T.ravel()
+    fine = np.full((8 * 320, 8 * 660), 240, np.uint8)
+    for place, wide in zip(middle, across, strict=True):
+        at, half = np.round(16 * (8 * place)).astype(int), round(16 * 4 * wide)
+        cv2.circle(fine, at.tolist(), half, 25, -1, cv2.LINE_AA, 4)
+    for row in (220, 280):
+        cv2.line(fine, (240, 8 * row), (8 * 620, 8 * row + 90), 25, round(8 * pen), cv2.LINE_AA)
+    page = cv2.resize(fine, None, fx=1 / 8, fy=1 / 8, interpolation=cv2.INTER_AREA)
+    strokes = [s for s in vectorize(page, Settings()).strokes if np.ptp(s.points, axis=0).max() < 9]
+    at = np.array([s.points.mean(0) for s in strokes])
+    off = np.hypot(*(middle[:, None] - at).T).T
+    found = off.min(1) < 1.5
+    assert found.sum() >= 31
+    wide = np.array([s.widths.mean() for s in strokes])[off.argmin(1)]
+    assert np.median(np.abs(wide / across - 1)[found]) < 0.15

@@ -19,9 +19,9 @@ from involute.engine.values import PlanarGraph, Scan
 SETTINGS = Settings(router="geometric")
 NAMES = [one.name for one in PASSES]
 ORDER = [
-    "skeleton", "forks", "spurs", "rungs", "tips", "bends", "junctions", "spacing", "ends", "gaps",
-    "smoothing", "joining", "undrawn", "planarity", "page", "measure", "pencil", "measure-inked",
-    "dust", "stubs", "measure-strokes", "lifts",
+    "skeleton", "forks", "spurs", "rungs", "tips", "bends", "junctions", "spacing", "ends",
+    "dashes", "gaps", "smoothing", "joining", "undrawn", "planarity", "page", "measure", "pencil",
+    "measure-inked", "dust", "stubs", "measure-strokes", "lifts",
 ]  # fmt: skip
 
 

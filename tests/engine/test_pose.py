@@ -98,3 +98,20 @@ def test_what_is_turned_comes_back(pose, height, width, data):
     middle = np.array([[column + 0.5, row + 0.5]])
     x, y = pose.points_back(middle, (width, height))[0]
     assert picture[int(y), int(x)] == turned[row, column]
+
+
+@pytest.mark.parametrize("pose", POSES)
+def test_a_frame_along_the_edge_of_the_page_is_one_closed_line(pose):
+    """The network must not see where the page ends, on whichever side that is."""
+    found = np.full((400, 300), 240, np.uint8)
+    cv2.rectangle(found, (1, 1), (297, 397), 30, 4)
+    cv2.circle(found, (150, 180), 60, 30, 4, cv2.LINE_AA)
+    drawing = vectorize(pose.turned(found), Settings(), turn=False)
+    width, height = drawing.size
+    frames = [s for s in drawing.strokes if np.ptp(s.points, axis=0).min() > 250]
+    assert len(drawing.strokes) == 2
+    assert len(frames) == 1
+    assert frames[0].closed
+    rim = np.min([frames[0].points, np.array([width, height]) - frames[0].points], axis=0).min(1)
+    assert rim.max() < 8  # a corner is rounded
+    assert np.median(rim) < 3

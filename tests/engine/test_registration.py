@@ -97,6 +97,48 @@ def test_a_file_punch_and_crosses_are_found():
     assert np.abs(found - np.array(sorted(cross_places())) - 0.5).max() < 1
 
 
+def tinted(holes, tint, shadow=0.7):
+    """A page of colored paper, (H, W, 3) uint8: through its holes one sees the white lid, with the
+    sheet's shadow on one side."""
+    image = page("none")[..., None] / PAPER * np.array(tint, float)
+    for kind, x, y in hole_places(holes):
+        dark, radius = [c * shadow for c in tint], round(3.2 * PIXELS_PER_MM)
+        if kind == "round":
+            cv2.circle(image, (x, y), radius, (PAPER,) * 3, cv2.FILLED, cv2.LINE_AA)
+            cv2.ellipse(image, (x, y), (radius, radius), 0, 20, 200, dark, 2, cv2.LINE_AA)
+        else:
+            cv2.rectangle(image, (x - 19, y - 5), (x + 19, y + 5), (PAPER,) * 3, cv2.FILLED)
+            cv2.line(image, (x - 19, y - 5), (x + 19, y - 5), dark, 2)
+    grain = np.random.default_rng(0).normal(0, 2, image.shape)
+    return np.clip(image + grain, 0, 255).astype(np.uint8)
+
+
+@pytest.mark.parametrize("tint", [(200, 225, 240), (225, 200, 160), (180, 180, 180)])
+@pytest.mark.parametrize("holes", ["acme", "file", "three"])
+def test_the_rims_of_holes_in_a_tinted_sheet_are_no_lines(holes, tint):
+    image = tinted(holes, tint)
+    image[..., 0] -= 3  # the paper has some color
+    read = scan_of(image)
+    scan = set_aside(read, Settings())
+    drawn = scan_of(tinted("none", tint)).ink > 0.3
+    assert ((scan.ink > 0.3) == drawn).mean() > 0.9995
+    assert scan.notes == (
+        f"Left out as no part of the drawing: {len(hole_places(holes))} punched holes.",
+    )
+    true = np.array([(x + 0.5, y + 0.5) for _, x, y in hole_places(holes)])
+    apart = np.hypot(*(true[:, None] - np.array(anchors_of(read))).transpose(2, 0, 1))
+    assert apart.min(1).max() < 2.5  # a shadow hides a side of each
+    assert set_aside(read, Settings(marks=False)).ink is read.ink
+
+
+def test_white_spots_on_a_tinted_sheet_are_not_taken_for_holes():
+    image = tinted("none", (225, 200, 160))
+    for x, y in ((450, 640), (100, 60), (620, 80)):  # chalk, and none in a row
+        cv2.circle(image, (x, y), 9, (250, 250, 250), cv2.FILLED, cv2.LINE_AA)
+    read = scan_of(image)
+    assert set_aside(read, Settings()).ink is read.ink
+
+
 @pytest.mark.parametrize("degrees", [1.2, -0.8, 3])
 def test_the_scanners_lid_around_the_page_is_a_border(degrees):
     image, _ = laid(page("acme", crosses=True), degrees, (4, -6), lid=15)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import cv2
 import numpy as np
 import pytest
-from involute.engine import Settings
+from involute.engine import Settings, vectorize
 from involute.engine.fills.solids import split_solids
 from involute.engine.scan import read_scan
 from involute.engine.values import Scan
@@ -107,3 +107,47 @@ def test_areas_with_a_very_long_border():
     _, fills = split_solids(scan_of(*teeth, size=(400, 2000)), SETTINGS)
     assert len(fills) == 12
     assert all(cv2.contourArea(fill[0]) == pytest.approx(22 * 1980, rel=0.02) for fill in fills)
+
+
+def lettered(ground: int = 15, letter: int = 245) -> np.ndarray:
+    """A black box with white lettering in two sizes, a ring and a line; (H, W) uint8."""
+    image = np.full((500, 700), 245, np.uint8)
+    cv2.rectangle(image, (60, 60), (560, 200), ground, -1)
+    font = cv2.FONT_HERSHEY_SIMPLEX
+    cv2.putText(image, "SHERIFF", (90, 150), font, 2.6, letter, 4, cv2.LINE_AA)
+    cv2.putText(image, "OPEN DAY AND NIGHT", (90, 185), font, 0.8, letter, 2, cv2.LINE_AA)
+    cv2.ellipse(image, (300, 350), (180, 90), 0, 0, 360, 15, 3, cv2.LINE_AA)
+    cv2.line(image, (40, 300), (660, 470), 15, 3, cv2.LINE_AA)
+    return image
+
+
+def test_white_lettering_in_a_black_box_is_a_fill_with_holes():
+    drawing = vectorize(lettered())
+    assert len(drawing.strokes) == 2
+    box = max(drawing.fills, key=len)
+    # 7 + 15 letters; what an O encloses is an area of its own.
+    assert len(box) == 1 + 22
+    assert cv2.contourArea(box[0]) == pytest.approx(501 * 141, rel=0.01)
+    assert drawing.fidelity.lost < 0.001
+    assert drawing.fidelity.invented < 0.001
+
+
+def test_a_box_that_hangs_on_a_frame_is_one_all_the_same():
+    image = lettered()
+    cv2.line(image, (560, 100), (690, 100), 15, 3, cv2.LINE_AA)
+    cv2.line(image, (60, 200), (20, 490), 15, 3, cv2.LINE_AA)
+    drawing = vectorize(image)
+    assert len(drawing.strokes) == 4
+    assert len(max(drawing.fills, key=len)) == 1 + 22
+
+
+def test_dark_hatching_is_no_box():
+    image = np.full((400, 500), 245, np.uint8)
+    for k in range(30):
+        cv2.line(image, (60 + 10 * k, 60), (60 + 10 * k, 240), 15, 5, cv2.LINE_AA)
+    for k in range(5):
+        cv2.line(image, (58, 70 + 40 * k), (352, 70 + 40 * k), 15, 5, cv2.LINE_AA)
+    cv2.circle(image, (90, 90), 22, 15, -1)
+    scan = read_scan(image, SETTINGS)
+    _, fills = split_solids(scan, SETTINGS)
+    assert sum(cv2.contourArea(fill[0]) for fill in fills) < 2 * np.pi * 22**2

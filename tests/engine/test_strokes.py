@@ -192,6 +192,21 @@ def test_a_corner_that_the_centerline_rounded_is_sharp_again(angle: float) -> No
     assert len(stroke.points) == 3
 
 
+def test_a_corner_that_the_page_cuts_off_stays_on_the_page() -> None:
+    """The line follows the edge for a few px where the true corner lies beyond it."""
+    legs = np.array([[45.0, 100], [58, 204], [75, 100]])
+    t = np.linspace(0, 2, 241)
+    line = np.stack([np.interp(t, [0, 1, 2], legs[:, c]) for c in (0, 1)], 1)
+    line[:, 1] = np.minimum(line[:, 1], 200.0)
+    graph, partner = graph_from_strokes([line], widths=[8.0])
+    beyond, on_page = (
+        build(Page.of(graph, Settings(), size), walk(partner))[0]
+        for size in ((np.inf, np.inf), (200, 200))
+    )
+    assert beyond.points[:, 1].max() > 202
+    assert on_page.points[:, 1].max() < 200.5
+
+
 def test_a_round_corner_stays_round() -> None:
     t = np.linspace(0, np.pi / 2, 30)
     arc = np.stack([100 + 8 * np.sin(t), 28 - 8 * np.cos(t)], 1)

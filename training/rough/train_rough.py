@@ -46,6 +46,7 @@ _HIDDEN = {
 }
 _BATCH, _NOISE, _DROPOUT = 1024, 0.1, 0.2
 _EVERY = 75  # steps between two looks at the held-out pages
+_LEFT = 0.35  # share of the false branches that a first look leaves
 _NEAR = (3.5, 1.5)  # px, and times the spread, that a redrawn line may lie off the stroke it is
 
 
@@ -128,12 +129,13 @@ def redrawn_rows(page: RoughPage, net: Net) -> tuple[Rows, Rows, Rows]:
     bundles, graph = cleaning.redrawn(found, Settings(), page.ink.shape)
     true = TrueLines.of(page.lines)
     branches: list[Rows] = [_none(meant.FEATURES)]
-    for _ in range(2):  # as they are, and with what is left when the false ones are gone
+    rng = np.random.default_rng(0)
+    for left in (_LEFT, 0.0, 0.0):  # as they are, with some false ones, and without
         if graph.branch_count < 2:
             break
         label = true_lines.meant(graph, true, page.spread)
         branches.append((meant.features(graph, bundles, found.pen), label))
-        graph = join(select(graph, label))
+        graph = join(select(graph, label | (rng.random(len(label)) < left)))
     halves = bridging.candidates(graph, found.pen)
     gaps = true_lines.goes_on(graph, halves, true, page.spread)
     ends = bridging.features(graph, halves, bundles, found.pen), gaps

@@ -172,6 +172,10 @@ TEXTS = {
     "Don't trace what lies beyond the sheet in a photograph: cloth, a desk, a finger": (
         "Ne pas vectoriser ce qui dépasse de la feuille sur une photo : tissu, table, doigt"
     ),
+    "Straighten Sheet": "Redresser la feuille",
+    "Take the perspective out of a photographed sheet, as seen from straight above": (
+        "Supprimer la perspective d'une feuille photographiée, comme vue d'en haut"
+    ),
     "Lines wider than this, in pixels of the picture, are solid areas; 0 finds out from the pen": (
         "Les lignes plus larges, en pixels de l'image, sont des aplats ; 0 le déduit de la plume"
     ),
@@ -179,6 +183,10 @@ TEXTS = {
     "Keep dots of full ink about as wide as the pen, which are no specks": (
         "Garder les points d'encre pleine à peu près aussi larges que la plume, qui ne sont pas "
         "des taches"
+    ),
+    "Join Dashes": "Joindre les tirets",
+    "Make one stroke of a dashed or dotted line, and note how it is dashed": (
+        "Faire un seul trait d'une ligne tiretée ou pointillée, et noter ses tirets"
     ),
     "Opacity": "Opacité",
     "How opaque the strokes are": "Opacité des traits",
@@ -734,4 +742,142 @@ TEXTS = {
     "No other keyframe has doubtful junctions.": (
         "Aucune autre image clé n'a de jonctions douteuses."
     ),
+    # sentences of the engine
+    "Traced as light lines on dark; if the ink is dark, try --polarity dark.": (
+        "Tracé comme lignes claires sur fond sombre ; si l'encre est sombre, essayer "
+        "--polarity dark."
+    ),
+    "{0} of the ink is not in the drawing; try --provider classical, or a smaller "
+    "--min-length where dots and specks are missing.": (
+        "{0} de l'encre manque dans le dessin ; essayer --provider classical, ou un "
+        "--min-length plus petit là où manquent des points."
+    ),
+    "{0} of the length of the strokes runs over bare paper; raise --min-length, or set "
+    "--pen-width.": (
+        "{0} de la longueur des traits passe sur du papier vierge ; augmenter --min-length "
+        "ou régler --pen-width."
+    ),
+    "Taken for a rough drawing: its {0} pencil strokes say {1} lines.": (
+        "Pris pour un brouillon : ses {0} traits de crayon disent {1} lignes."
+    ),
+    "This stroke ends there already.": "Ce trait s'arrête déjà là.",
+    "To join, two different ends of strokes are needed.": (
+        "Pour joindre, il faut deux extrémités différentes."
+    ),
+    "Only ends can be joined; cut the stroke that goes on there first.": (
+        "Seules des extrémités peuvent être jointes ; couper d'abord le trait qui y continue."
+    ),
+    "Only ends that meet, or that hang on nothing, can be joined.": (
+        "Seules des extrémités qui se touchent, ou libres, peuvent être jointes."
+    ),
+    "{0} filled shapes were left out.": "{0} formes pleines ont été omises.",
+    "What lies beyond the sheet was left out: {0} of the picture.": (
+        "Ce qui dépasse de la feuille a été omis : {0} de l'image."
+    ),
+    "The sheet was not straightened: its four corners are not sure.": (
+        "La feuille n'a pas été redressée : ses quatre coins ne sont pas sûrs."
+    ),
+    "The sheet was straightened: its corners were {0}° askew.": (
+        "La feuille a été redressée : ses coins étaient de travers de {0}°."
+    ),
+    "Printed rules were left out.": "Les lignes imprimées ont été omises.",
+    "Left out as no part of the drawing: {0}.": "Omis, car ne fait pas partie du dessin : {0}.",
+    "dark borders of the scan": "bords sombres du scan",
+    "{0} punched holes": "{0} perforations",
+    "{0} registration marks": "{0} repères",
+    "There are no peg holes or registration marks on {0}; trace it without aligning.": (
+        "Pas de trous de barre à tenons ni de repères sur {0} ; tracer sans aligner."
+    ),
+    "Screentone was left out: {0} of the page.": "La trame a été omise : {0} de la page.",
+    "{0} is damaged; give a whole {1} file.": "{0} est endommagé ; donner un fichier {1} entier.",
+    "{0} is not a picture of a kind that is read; give {1}.": (
+        "{0} n'est pas une image d'un type lu ; donner {1}."
+    ),
+    "{0} is {1}, which is not read; {2}.": "{0} est au format {1}, qui n'est pas lu : {2}.",
+    "save it as PNG or TIFF first": "l'enregistrer d'abord en PNG ou TIFF",
+    "save its pages as PNG or TIFF first, at 300 dpi (pdftoppm -r 300 -png does it)": (
+        "enregistrer d'abord ses pages en PNG ou TIFF à 300 dpi (pdftoppm -r 300 -png le fait)"
+    ),
+    "save it as PNG or JPEG first; a phone can also be set to take JPEG": (
+        "l'enregistrer d'abord en PNG ou JPEG ; un téléphone peut aussi être réglé sur JPEG"
+    ),
+    "{0} is {1}; give an image file (or - for a pipe).": "{0} est {1} ; donner un fichier image.",
+    "a folder": "un dossier",
+    "no file": "pas un fichier",
+    "There is no file {0}; check the path.": "Il n'y a pas de fichier {0} ; vérifier le chemin.",
+    "Can't read {0}: {1}.": "Impossible de lire {0} : {1}.",
+    "{0} can't be the name of a file.": "{0} ne peut pas être un nom de fichier.",
+    "{0} is too large to be read; scale it down to at most 20,000 px a side.": (
+        "{0} est trop grand pour être lu ; réduire à 20 000 px par côté au plus."
+    ),
+    "{0} is only {1} x {2} px; give a picture of at least {3} x {4} px.": (
+        "{0} ne fait que {1} x {2} px ; donner une image d'au moins {3} x {4} px."
+    ),
+    "{0} is {1} x {2} px; scale it down to at most {3} px a side.": (
+        "{0} fait {1} x {2} px ; réduire à {3} px par côté au plus."
+    ),
+    "{0} holds values that aren't numbers; replace the NaN first.": (
+        "{0} contient des valeurs qui ne sont pas des nombres ; remplacer d'abord les NaN."
+    ),
+    "The picture is black all over; scan the page again, or choose polarity 'light' if "
+    "it is an empty blackboard.": (
+        "L'image est entièrement noire ; scanner la page à nouveau, ou choisir --polarity "
+        "light pour un tableau vide."
+    ),
+    "{0} says it has {1} images; it is damaged.": "{0} dit avoir {1} images ; il est endommagé.",
+    "{0} has no image {1} that can be read.": "{0} n'a pas d'image {1} lisible.",
+    "{0} is not a movie that can be read.": "{0} n'est pas une vidéo lisible.",
+    "the PSD holds no flattened picture; save it with 'Maximize Compatibility', or as PNG.": (
+        "le PSD ne contient pas d'image aplatie ; l'enregistrer avec « Maximiser la "
+        "compatibilité », ou en PNG."
+    ),
+    "The weights of the centerline network ({0}) are missing; reinstall Involute, or "
+    "choose the classical provider.": (
+        "Les poids du réseau des lignes ({0}) manquent ; réinstaller Involute, ou choisir "
+        "--provider classical."
+    ),
+    "Found no GPU that torch can use; choose the device 'auto' or 'cpu'.": (
+        "Aucun GPU utilisable par torch ; choisir --device auto ou --device cpu."
+    ),
+    "Can't read the weights in {0}.": "Impossible de lire les poids dans {0}.",
+    "The weights of the routing network are missing or damaged.": (
+        "Les poids du réseau des jonctions manquent ou sont endommagés."
+    ),
+    "The names {0} and {1} are not of one sequence; give the files of one sequence.": (
+        "Les noms {0} et {1} ne sont pas d'une même séquence ; donner les fichiers d'une séquence."
+    ),
+    "The names {0} and {1} differ in more than one number; give the files of one sequence.": (
+        "Les noms {0} et {1} diffèrent par plus d'un nombre ; donner les fichiers d'une séquence."
+    ),
+    "{0} and {1} are both drawing {2}; give the files of one sequence.": (
+        "{0} et {1} sont tous deux le dessin {2} ; donner les fichiers d'une séquence."
+    ),
+    "Frame {0} is beyond what a timeline holds ({1}); choose another start or step.": (
+        "L'image {0} dépasse ce que contient une timeline ({1}) ; choisir un autre début ou pas."
+    ),
+    "{0} declares entities; save it as plain SVG first.": (
+        "{0} déclare des entités ; l'enregistrer d'abord en SVG simple."
+    ),
+    "There is no line in {0}; pictures inside of an SVG are not read.": (
+        "Il n'y a pas de ligne dans {0} ; les images d'un SVG ne sont pas lues."
+    ),
+    "{0} isn't an SVG that can be read ({1}); save it anew.": (
+        "{0} n'est pas un SVG lisible ({1}) ; l'enregistrer à nouveau."
+    ),
+    "Frame {frame}:  {count} doubts": "Image {frame} :  {count} doutes",
+    "Most to Review": "Le plus à vérifier",
+    "Go to this keyframe": "Aller à cette image clé",
+    "Go to Keyframe": "Aller à l'image clé",
+    "Number of the frame": "Numéro de l'image",
+    "Trace the picture, or the picture file, that is in the clipboard": (
+        "Tracer l'image, ou le fichier image, du presse-papiers"
+    ),
+    "Trace from Clipboard": "Tracer depuis le presse-papiers",
+    "Drawing from Clipboard": "Dessin du presse-papiers",
+    "Blender sees no picture in the clipboard; save it as a file, and drop that on the viewport.": (
+        "Blender ne voit pas d'image dans le presse-papiers ; l'enregistrer dans un fichier "
+        "et le déposer sur la vue."
+    ),
+    # frames
+    "Frame": "Image",
 }

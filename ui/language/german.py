@@ -181,12 +181,21 @@ TEXTS = {
     "Don't trace what lies beyond the sheet in a photograph: cloth, a desk, a finger": (
         "Was auf einem Foto neben dem Blatt liegt, nicht nachziehen: Stoff, Tisch, ein Finger"
     ),
+    "Straighten Sheet": "Blatt entzerren",
+    "Take the perspective out of a photographed sheet, as seen from straight above": (
+        "Ein fotografiertes Blatt entzerren, als sähe man gerade von oben darauf"
+    ),
     "Lines wider than this, in pixels of the picture, are solid areas; 0 finds out from the pen": (
         "Linien, die breiter sind (in Bildpunkten), sind Flächen; 0 ermittelt es aus der Feder"
     ),
     "Keep Dots": "Punkte behalten",
     "Keep dots of full ink about as wide as the pen, which are no specks": (
         "Satte Punkte behalten, die etwa so breit wie die Feder und damit keine Flecken sind"
+    ),
+    "Join Dashes": "Gestricheltes verbinden",
+    "Make one stroke of a dashed or dotted line, and note how it is dashed": (
+        "Aus einer gestrichelten oder punktierten Linie einen Strich machen und festhalten, wie "
+        "sie gestrichelt ist"
     ),
     "Opacity": "Deckkraft",
     "How opaque the strokes are": "Wie stark die Striche decken",
@@ -769,4 +778,150 @@ TEXTS = {
     "No other keyframe has doubtful junctions.": (
         "Kein anderer Keyframe hat zweifelhafte Kreuzungen."
     ),
+    # sentences of the engine
+    "Traced as light lines on dark; if the ink is dark, try --polarity dark.": (
+        "Als helle Linien auf dunklem Grund nachgezogen; ist die Tusche dunkel, --polarity "
+        "dark versuchen."
+    ),
+    "{0} of the ink is not in the drawing; try --provider classical, or a smaller "
+    "--min-length where dots and specks are missing.": (
+        "{0} der Tusche sind nicht in der Zeichnung; --provider classical versuchen, oder "
+        "ein kleineres --min-length, wo Punkte und Flecken fehlen."
+    ),
+    "{0} of the length of the strokes runs over bare paper; raise --min-length, or set "
+    "--pen-width.": (
+        "{0} der Länge der Striche läuft über leeres Papier; --min-length erhöhen oder "
+        "--pen-width setzen."
+    ),
+    "Taken for a rough drawing: its {0} pencil strokes say {1} lines.": (
+        "Für eine Rohzeichnung gehalten: ihre {0} Bleistiftstriche sagen {1} Linien."
+    ),
+    "This stroke ends there already.": "Dieser Strich endet dort schon.",
+    "To join, two different ends of strokes are needed.": (
+        "Zum Verbinden braucht es zwei verschiedene Strichenden."
+    ),
+    "Only ends can be joined; cut the stroke that goes on there first.": (
+        "Nur Enden lassen sich verbinden; den Strich, der dort weitergeht, zuerst schneiden."
+    ),
+    "Only ends that meet, or that hang on nothing, can be joined.": (
+        "Nur Enden, die sich treffen oder an nichts hängen, lassen sich verbinden."
+    ),
+    "{0} filled shapes were left out.": "{0} gefüllte Formen wurden weggelassen.",
+    "What lies beyond the sheet was left out: {0} of the picture.": (
+        "Was außerhalb des Blattes liegt, wurde weggelassen: {0} des Bildes."
+    ),
+    "The sheet was not straightened: its four corners are not sure.": (
+        "Das Blatt wurde nicht entzerrt: seine vier Ecken sind nicht sicher."
+    ),
+    "The sheet was straightened: its corners were {0}° askew.": (
+        "Das Blatt wurde entzerrt: seine Ecken waren um {0}° schief."
+    ),
+    "Printed rules were left out.": "Gedruckte Hilfslinien wurden weggelassen.",
+    "Left out as no part of the drawing: {0}.": "Als nicht zur Zeichnung gehörig weggelassen: {0}.",
+    "dark borders of the scan": "dunkle Ränder des Scans",
+    "{0} punched holes": "{0} Lochungen",
+    "{0} registration marks": "{0} Passkreuze",
+    "There are no peg holes or registration marks on {0}; trace it without aligning.": (
+        "Auf {0} sind keine Peglöcher oder Passkreuze; ohne Ausrichten nachziehen."
+    ),
+    "Screentone was left out: {0} of the page.": "Rasterfolie wurde weggelassen: {0} der Seite.",
+    "{0} is damaged; give a whole {1} file.": (
+        "{0} ist beschädigt; eine unbeschädigte {1}-Datei geben."
+    ),
+    "{0} is not a picture of a kind that is read; give {1}.": (
+        "{0} ist kein Bild einer Art, die gelesen wird; {1} geben."
+    ),
+    "{0} is {1}, which is not read; {2}.": "{0} ist {1}, das nicht gelesen wird: {2}.",
+    "save it as PNG or TIFF first": "zuerst als PNG oder TIFF speichern",
+    "save its pages as PNG or TIFF first, at 300 dpi (pdftoppm -r 300 -png does it)": (
+        "zuerst seine Seiten als PNG oder TIFF speichern, mit 300 dpi (pdftoppm -r 300 -png "
+        "tut das)"
+    ),
+    "save it as PNG or JPEG first; a phone can also be set to take JPEG": (
+        "zuerst als PNG oder JPEG speichern; ein Telefon lässt sich auch auf JPEG stellen"
+    ),
+    "{0} is {1}; give an image file (or - for a pipe).": "{0} ist {1}; eine Bilddatei geben.",
+    "a folder": "ein Ordner",
+    "no file": "keine Datei",
+    "There is no file {0}; check the path.": "Es gibt keine Datei {0}; den Pfad prüfen.",
+    "Can't read {0}: {1}.": "{0} kann nicht gelesen werden: {1}.",
+    "{0} can't be the name of a file.": "{0} kann nicht der Name einer Datei sein.",
+    "{0} is too large to be read; scale it down to at most 20,000 px a side.": (
+        "{0} ist zu groß, um gelesen zu werden; auf höchstens 20.000 px je Seite verkleinern."
+    ),
+    "{0} is only {1} x {2} px; give a picture of at least {3} x {4} px.": (
+        "{0} hat nur {1} x {2} px; ein Bild von mindestens {3} x {4} px geben."
+    ),
+    "{0} is {1} x {2} px; scale it down to at most {3} px a side.": (
+        "{0} hat {1} x {2} px; auf höchstens {3} px je Seite verkleinern."
+    ),
+    "{0} holds values that aren't numbers; replace the NaN first.": (
+        "{0} enthält Werte, die keine Zahlen sind; zuerst die NaN ersetzen."
+    ),
+    "The picture is black all over; scan the page again, or choose polarity 'light' if "
+    "it is an empty blackboard.": (
+        "Das Bild ist überall schwarz; die Seite noch einmal scannen, oder bei einer leeren "
+        "Tafel --polarity light wählen."
+    ),
+    "{0} says it has {1} images; it is damaged.": (
+        "{0} sagt, es habe {1} Bilder; es ist beschädigt."
+    ),
+    "{0} has no image {1} that can be read.": "{0} hat kein lesbares Bild {1}.",
+    "{0} is not a movie that can be read.": "{0} ist kein Film, der gelesen werden kann.",
+    "the PSD holds no flattened picture; save it with 'Maximize Compatibility', or as PNG.": (
+        "die PSD enthält kein flaches Bild; sie mit „Kompatibilität maximieren“ oder als PNG "
+        "speichern."
+    ),
+    "The weights of the centerline network ({0}) are missing; reinstall Involute, or "
+    "choose the classical provider.": (
+        "Die Gewichte der Liniensuche ({0}) fehlen; Involute neu installieren oder "
+        "--provider classical wählen."
+    ),
+    "Found no GPU that torch can use; choose the device 'auto' or 'cpu'.": (
+        "Keine Grafikkarte gefunden, die torch benutzen kann; --device auto oder --device "
+        "cpu wählen."
+    ),
+    "Can't read the weights in {0}.": "Die Gewichte in {0} können nicht gelesen werden.",
+    "The weights of the routing network are missing or damaged.": (
+        "Die Gewichte des Netzes für Kreuzungen fehlen oder sind beschädigt."
+    ),
+    "The names {0} and {1} are not of one sequence; give the files of one sequence.": (
+        "Die Namen {0} und {1} gehören nicht zu einer Bildfolge; die Dateien einer Bildfolge geben."
+    ),
+    "The names {0} and {1} differ in more than one number; give the files of one sequence.": (
+        "Die Namen {0} und {1} unterscheiden sich in mehr als einer Zahl; die Dateien einer "
+        "Bildfolge geben."
+    ),
+    "{0} and {1} are both drawing {2}; give the files of one sequence.": (
+        "{0} und {1} sind beide Zeichnung {2}; die Dateien einer Bildfolge geben."
+    ),
+    "Frame {0} is beyond what a timeline holds ({1}); choose another start or step.": (
+        "Bild {0} liegt jenseits dessen, was eine Zeitleiste fasst ({1}); anderen Anfang "
+        "oder Abstand wählen."
+    ),
+    "{0} declares entities; save it as plain SVG first.": (
+        "{0} erklärt Entitäten; zuerst als einfaches SVG speichern."
+    ),
+    "There is no line in {0}; pictures inside of an SVG are not read.": (
+        "In {0} ist keine Linie; Bilder in einem SVG werden nicht gelesen."
+    ),
+    "{0} isn't an SVG that can be read ({1}); save it anew.": (
+        "{0} ist kein lesbares SVG ({1}); neu speichern."
+    ),
+    "Frame {frame}:  {count} doubts": "Bild {frame}:  {count} Zweifel",
+    "Most to Review": "Am meisten zu prüfen",
+    "Go to this keyframe": "Zu diesem Keyframe gehen",
+    "Go to Keyframe": "Zum Keyframe",
+    "Number of the frame": "Nummer des Bildes",
+    "Trace the picture, or the picture file, that is in the clipboard": (
+        "Das Bild oder die Bilddatei nachziehen, die in der Zwischenablage ist"
+    ),
+    "Trace from Clipboard": "Aus der Zwischenablage nachziehen",
+    "Drawing from Clipboard": "Zeichnung aus der Zwischenablage",
+    "Blender sees no picture in the clipboard; save it as a file, and drop that on the viewport.": (
+        "Blender sieht kein Bild in der Zwischenablage; es als Datei speichern und diese auf "
+        "den Viewport ziehen."
+    ),
+    # frames
+    "Frame": "Bild",
 }

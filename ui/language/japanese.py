@@ -170,12 +170,20 @@ TEXTS = {
     "Don't trace what lies beyond the sheet in a photograph: cloth, a desk, a finger": (
         "写真で紙の外に写っているもの (布、机、指など) をトレースしません"
     ),
+    "Straighten Sheet": "用紙の歪みを補正",
+    "Take the perspective out of a photographed sheet, as seen from straight above": (
+        "写真に撮った用紙の遠近の歪みを除き、真上から見たようにします"
+    ),
     "Lines wider than this, in pixels of the picture, are solid areas; 0 finds out from the pen": (
         "これより太い線 (画像のピクセル) はベタとみなします。0 ならペンから判断します"
     ),
     "Keep Dots": "点を残す",
     "Keep dots of full ink about as wide as the pen, which are no specks": (
         "ペンとほぼ同じ太さの濃い点を、ごみとみなさずに残します"
+    ),
+    "Join Dashes": "破線をつなぐ",
+    "Make one stroke of a dashed or dotted line, and note how it is dashed": (
+        "破線や点線を1本のストロークにし、その間隔を記録します"
     ),
     "Opacity": "不透明度",
     "How opaque the strokes are": "ストロークの不透明度",
@@ -699,4 +707,149 @@ TEXTS = {
     "No other keyframe has doubtful junctions.": (
         "疑わしい交点のあるキーフレームはほかにありません。"
     ),
+    # sentences of the engine
+    "Traced as light lines on dark; if the ink is dark, try --polarity dark.": (
+        "暗い地の明るい線としてトレースしました。インクが暗い場合は --polarity "
+        "dark を試してください。"
+    ),
+    "{0} of the ink is not in the drawing; try --provider classical, or a smaller "
+    "--min-length where dots and specks are missing.": (
+        "インクの {0} が描画にありません。--provider classical "
+        "を試すか、点や斑点が欠けている場合は --min-length "
+        "を小さくしてください。"
+    ),
+    "{0} of the length of the strokes runs over bare paper; raise --min-length, or set "
+    "--pen-width.": (
+        "ストロークの長さの {0} が白紙の上を通っています。--min-length "
+        "を上げるか --pen-width を設定してください。"
+    ),
+    "Taken for a rough drawing: its {0} pencil strokes say {1} lines.": (
+        "ラフと判断しました。鉛筆の {0} ストロークは {1} 本の線を表しています。"
+    ),
+    "This stroke ends there already.": ("このストロークはすでにそこで終わっています。"),
+    "To join, two different ends of strokes are needed.": ("つなぐには異なる2つの端が必要です。"),
+    "Only ends can be joined; cut the stroke that goes on there first.": (
+        "つなげるのは端だけです。そこで続いているストロークを先に切ってください。"
+    ),
+    "Only ends that meet, or that hang on nothing, can be joined.": (
+        "つなげるのは、出会っている端か何にもつながっていない端だけです。"
+    ),
+    "{0} filled shapes were left out.": ("塗りつぶし図形 {0} 個を除きました。"),
+    "What lies beyond the sheet was left out: {0} of the picture.": (
+        "紙の外にあるものを除きました: 画像の {0}。"
+    ),
+    "The sheet was not straightened: its four corners are not sure.": (
+        "用紙を補正しませんでした。四隅がはっきりしません。"
+    ),
+    "The sheet was straightened: its corners were {0}° askew.": (
+        "用紙の歪みを補正しました。角のずれは {0}° でした。"
+    ),
+    "Printed rules were left out.": "印刷された罫線を除きました。",
+    "Left out as no part of the drawing: {0}.": ("描画の一部ではないため除きました: {0}。"),
+    "dark borders of the scan": "スキャンの暗い縁",
+    "{0} punched holes": "パンチ穴 {0} 個",
+    "{0} registration marks": "トンボ {0} 個",
+    "There are no peg holes or registration marks on {0}; trace it without aligning.": (
+        "{0} にはタップ穴もトンボもありません。位置合わせなしでトレースしてください。"
+    ),
+    "Screentone was left out: {0} of the page.": ("スクリーントーンを除きました: ページの {0}。"),
+    "{0} is damaged; give a whole {1} file.": (
+        "{0} は壊れています。完全な {1} ファイルを指定してください。"
+    ),
+    "{0} is not a picture of a kind that is read; give {1}.": (
+        "{0} は読み込める種類の画像ではありません。{1} を指定してください。"
+    ),
+    "{0} is {1}, which is not read; {2}.": ("{0} は {1} で、読み込めません: {2}。"),
+    "save it as PNG or TIFF first": ("先に PNG か TIFF で保存してください"),
+    "save its pages as PNG or TIFF first, at 300 dpi (pdftoppm -r 300 -png does it)": (
+        "先にページを 300 dpi の PNG か TIFF で保存してください (pdftoppm -r 300 -png が使えます)"
+    ),
+    "save it as PNG or JPEG first; a phone can also be set to take JPEG": (
+        "先に PNG か JPEG で保存してください。電話の設定を JPEG にすることもできます"
+    ),
+    "{0} is {1}; give an image file (or - for a pipe).": (
+        "{0} は{1}です。画像ファイルを指定してください。"
+    ),
+    "a folder": "フォルダー",
+    "no file": "ファイルではないもの",
+    "There is no file {0}; check the path.": (
+        "ファイル {0} がありません。パスを確認してください。"
+    ),
+    "Can't read {0}: {1}.": "{0} を読み込めません: {1}。",
+    "{0} can't be the name of a file.": "{0} はファイル名にできません。",
+    "{0} is too large to be read; scale it down to at most 20,000 px a side.": (
+        "{0} は大きすぎて読み込めません。一辺 20,000 px 以下に縮小してください。"
+    ),
+    "{0} is only {1} x {2} px; give a picture of at least {3} x {4} px.": (
+        "{0} は {1} x {2} px しかありません。{3} x {4} px 以上の画像を指定してください。"
+    ),
+    "{0} is {1} x {2} px; scale it down to at most {3} px a side.": (
+        "{0} は {1} x {2} px です。一辺 {3} px 以下に縮小してください。"
+    ),
+    "{0} holds values that aren't numbers; replace the NaN first.": (
+        "{0} に数でない値があります。先に NaN を置き換えてください。"
+    ),
+    "The picture is black all over; scan the page again, or choose polarity 'light' if "
+    "it is an empty blackboard.": (
+        "画像全体が黒です。ページをスキャンし直すか、空の黒板なら --polarity "
+        "light を選んでください。"
+    ),
+    "{0} says it has {1} images; it is damaged.": (
+        "{0} には {1} 枚の画像があるとのことですが、壊れています。"
+    ),
+    "{0} has no image {1} that can be read.": ("{0} に読み込める画像 {1} がありません。"),
+    "{0} is not a movie that can be read.": ("{0} は読み込める動画ではありません。"),
+    "the PSD holds no flattened picture; save it with 'Maximize Compatibility', or as PNG.": (
+        "PSD に統合画像がありません。「互換性を最優先」で、または PNG で保存してください。"
+    ),
+    "The weights of the centerline network ({0}) are missing; reinstall Involute, or "
+    "choose the classical provider.": (
+        "線検出ネットワークの重み ({0}) がありません。Involute "
+        "を再インストールするか --provider classical を選んでください。"
+    ),
+    "Found no GPU that torch can use; choose the device 'auto' or 'cpu'.": (
+        "torch が使える GPU がありません。--device auto か --device cpu を選んでください。"
+    ),
+    "Can't read the weights in {0}.": "{0} の重みを読み込めません。",
+    "The weights of the routing network are missing or damaged.": (
+        "交点ネットワークの重みがないか、壊れています。"
+    ),
+    "The names {0} and {1} are not of one sequence; give the files of one sequence.": (
+        "{0} と {1} は同じ連番ではありません。1つの連番のファイルを指定してください。"
+    ),
+    "The names {0} and {1} differ in more than one number; give the files of one sequence.": (
+        "{0} と {1} は2つ以上の数が違います。1つの連番のファイルを指定してください。"
+    ),
+    "{0} and {1} are both drawing {2}; give the files of one sequence.": (
+        "{0} と {1} はどちらも {2} 番の絵です。1つの連番のファイルを指定してください。"
+    ),
+    "Frame {0} is beyond what a timeline holds ({1}); choose another start or step.": (
+        "フレーム {0} はタイムラインの範囲 ({1}) を超えています。開始かステップを変えてください。"
+    ),
+    "{0} declares entities; save it as plain SVG first.": (
+        "{0} はエンティティを宣言しています。先にプレーン SVG で保存してください。"
+    ),
+    "There is no line in {0}; pictures inside of an SVG are not read.": (
+        "{0} に線がありません。SVG 内の画像は読み込まれません。"
+    ),
+    "{0} isn't an SVG that can be read ({1}); save it anew.": (
+        "{0} は読み込める SVG ではありません ({1})。保存し直してください。"
+    ),
+    "Frame {frame}:  {count} doubts": ("フレーム {frame}:  疑わしい交点 {count}"),
+    "Most to Review": "確認の多いフレーム",
+    "Go to this keyframe": "このキーフレームへ移動",
+    "Go to Keyframe": "キーフレームへ",
+    "Number of the frame": "フレーム番号",
+    "Trace the picture, or the picture file, that is in the clipboard": (
+        "クリップボードの画像、または画像ファイルをトレース"
+    ),
+    "Trace from Clipboard": "クリップボードからトレース",
+    "Drawing from Clipboard": "クリップボードの描画",
+    "Blender sees no picture in the clipboard; save it as a file, and drop that on the viewport.": (
+        "Blender "
+        "からはクリップボードに画像が見えません。ファイルに保存してビューポートにドロップして"
+        "ください。"
+    ),
+    # frames
+    "Frame": "フレーム",
 }

@@ -19,7 +19,7 @@ from gpu_extras.batch import batch_for_shader
 from ...operators.view.card_layout import Card
 from ...operators.view.junction_words import letters, percent, sentence
 from ...operators.view.on_screen import cards_of, places_on_screen
-from .colors import LOOSE
+from .colors import STROKES
 from .drawn_batches import kept
 from .overlay_geometry import labels, sketch
 
@@ -76,7 +76,8 @@ def draw(context: bpy.types.Context, shown: Shown) -> None:
 def draw_trail(places: Array) -> None:
     """The path of a drag so far, (N, 2) px of the region."""
     gpu.state.blend_set("ALPHA")
-    _draw_lines(_polylines([(places, (*LOOSE, 1.0))]), 2.0)
+    for width, color in ((5.0, _BACK), (2.5, (*STROKES[0], 1.0))):  # seen on ink and paper
+        _draw_lines(_polylines([(places, color)]), width)
     gpu.state.blend_set("NONE")
 
 

@@ -27,8 +27,8 @@ def draw_strokes(context: bpy.types.Context, shown: Shown) -> None:
     """Each stroke in its colour, a dot at each end."""
     preferences = preferences_of(context)
     palette = tuple(tuple(round(v, 4) for v in color) for color in preferences.stroke_palette)
-    shapes = [cels.read_shapes(cel) for _, cel in cels.cels_at(shown.object.data, shown.frame)]
-    key = ("strokes", shown.trace.stamp, shown.trace.key, palette, _content(shapes))
+    shapes, content = content_of(shown.object.data, shown.frame)
+    key = ("strokes", shown.trace.stamp, shown.trace.key, palette, content)
     lines, dots = kept(key, lambda: _batches(shown, shapes, palette))
     width = preferences.stroke_width * context.preferences.system.ui_scale
     gpu.state.blend_set("ALPHA")
@@ -62,11 +62,12 @@ def _batches(
     return lines, batch_for_shader(shader, "POINTS", content)
 
 
-def _content(shapes: list[Shapes]) -> bytes:
-    """A hash of all that is drawn."""
+def content_of(data: bpy.types.ID, frame: int) -> tuple[list[Shapes], bytes]:
+    """All that is drawn at a frame, and a hash of it."""
+    shapes = [cels.read_shapes(cel) for _, cel in cels.cels_at(data, frame)]
     content = blake2b(digest_size=16)
     for one in shapes:
         for values in (one.offsets, one.points, one.keys, one.halves, one.cyclic, one.handles):
             if values is not None:
                 content.update(np.ascontiguousarray(values).tobytes())
-    return content.digest()
+    return shapes, content.digest()

@@ -10,7 +10,10 @@ from ...operators.grease_pencil import state
 from ...operators.junctions.accept import INVOLUTE_OT_accept
 from ...operators.junctions.ask_again import INVOLUTE_OT_ask_again
 from ...operators.junctions.choose import INVOLUTE_OT_choose
-from ...operators.junctions.doubtful_frame import INVOLUTE_OT_doubtful_frame
+from ...operators.junctions.doubtful_frame import (
+    INVOLUTE_OT_doubtful_frame,
+    INVOLUTE_OT_go_to_frame,
+)
 from ...operators.junctions.go_to_junction import (
     INVOLUTE_OT_go_to_junction,
     INVOLUTE_OT_step_junction,
@@ -71,7 +74,9 @@ class INVOLUTE_PT_junctions(_Sidebar, bpy.types.Panel):
         row.prop(shown.view, "certainty", text="Above", slider=True)
         sure = shown.table.at_least(certainty / 100)
         said = label("Accept {count}", count=int(sure.sum()))
-        button = row.operator(INVOLUTE_OT_accept.bl_idname, text=said, translate=False)
+        field = row.row(align=True)
+        field.enabled = bool(sure.any())
+        button = field.operator(INVOLUTE_OT_accept.bl_idname, text=said, translate=False)
         button.probability = certainty
         column.operator(INVOLUTE_OT_ask_again.bl_idname, icon="FILE_REFRESH")
         _frames(self.layout, shown)
@@ -130,6 +135,20 @@ def _frames(layout: bpy.types.UILayout, shown: Shown) -> None:
     )
     row.label(text=said, translate=False)
     row.operator(step, text="", icon="NEXT_KEYFRAME").direction = "NEXT"
+    header, body = layout.panel("involute_frames", default_closed=True)
+    header.label(text="Most to Review")
+    if body is None:
+        return
+    column = body.column(align=True)
+    for frame in sorted(doubtful, key=lambda frame: -doubtful[frame])[:_ROWS]:
+        said = label("Frame {frame}:  {count} doubts", frame=frame, count=doubtful[frame])
+        button = column.operator(
+            INVOLUTE_OT_go_to_frame.bl_idname,
+            text=said,
+            depress=frame == shown.frame,
+            translate=False,
+        )
+        button.frame = frame
 
 
 def _list(layout: bpy.types.UILayout, shown: Shown, listed: np.ndarray) -> None:

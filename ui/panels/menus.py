@@ -4,23 +4,24 @@ from __future__ import annotations
 
 import bpy
 
-from ...engine.formats.picture_kinds import SUFFIXES
 from ...operators.sequences.playing import plays_frames
 from ...operators.sequences.trace_frames import (
     INVOLUTE_OT_import_sequence,
     INVOLUTE_OT_trace_sequence,
 )
+from ...operators.tracing.file_choice import TRACED
 from ...operators.tracing.import_scan import INVOLUTE_OT_import_scan
+from ...operators.tracing.paste import INVOLUTE_OT_paste
 from ...operators.tracing.trace import INVOLUTE_OT_trace, is_image_empty
 
 
 class INVOLUTE_FH_scan(bpy.types.FileHandler):
-    """Pictures dropped on a 3D viewport can be traced."""
+    """Pictures, and SVGs of other programs, dropped on a 3D viewport can be traced."""
 
     bl_idname = "INVOLUTE_FH_scan"
     bl_label = "Trace as Grease Pencil"
     bl_import_operator = INVOLUTE_OT_import_scan.bl_idname
-    bl_file_extensions = ";".join(SUFFIXES)
+    bl_file_extensions = ";".join(TRACED)
 
     @classmethod
     def poll_drop(cls, context: bpy.types.Context) -> bool:
@@ -44,6 +45,9 @@ def _in_add(self: bpy.types.Menu, context: bpy.types.Context) -> None:
     )
     self.layout.operator(
         INVOLUTE_OT_import_sequence.bl_idname, text="Drawing Sequence...", icon="RENDER_ANIMATION"
+    )
+    self.layout.operator(
+        INVOLUTE_OT_paste.bl_idname, text="Drawing from Clipboard", icon="PASTEDOWN"
     )
 
 

@@ -18,6 +18,7 @@ from ...operators.sequences.trace_frames import (
 )
 from ...operators.tracing.background import INVOLUTE_OT_cancel, stage_of
 from ...operators.tracing.import_scan import INVOLUTE_OT_import_scan
+from ...operators.tracing.paste import INVOLUTE_OT_paste
 from ...operators.tracing.scan_behind import scan_of
 from ...operators.tracing.settings_layout import draw_placing, draw_settings
 from ...operators.tracing.trace import INVOLUTE_OT_trace, is_image_empty
@@ -49,46 +50,14 @@ class INVOLUTE_PT_trace(bpy.types.Panel):
         draw_preset_menu(self.layout)
 
     def draw(self, context: bpy.types.Context) -> None:
-        """Buttons and settings, or the progress."""
-        layout = self.layout
-        if jobs.current is not None:
+        """Buttons, or the progress; and the settings, which *Live* goes on asking for meanwhile."""
+        layout, settings = self.layout, scene_settings(context.scene)
+        if jobs.current is None:
+            _what_to_trace(layout.column(), context, settings)
+        else:
             job = jobs.current
             layout.progress(factor=job.fraction, text=stage_of(job), translate=False)
             layout.operator(INVOLUTE_OT_cancel.bl_idname, icon="CANCEL")
-            return
-        settings = scene_settings(context.scene)
-        column = layout.column()
-        column.scale_y = 1.3
-        if plays_frames(context.active_object):
-            _button(
-                column,
-                INVOLUTE_OT_trace_sequence.bl_idname,
-                settings,
-                label("Trace What {name} Plays", name=context.active_object.name),
-                "RENDER_ANIMATION",
-            )
-        elif is_image_empty(context.active_object):
-            _button(
-                column,
-                INVOLUTE_OT_trace.bl_idname,
-                settings,
-                label("Trace {name}", name=context.active_object.name),
-                "GREASEPENCIL",
-            )
-        _button(
-            column,
-            INVOLUTE_OT_import_scan.bl_idname,
-            settings,
-            "Trace Files...",
-            "FILE_FOLDER",
-        )
-        _button(
-            column,
-            INVOLUTE_OT_import_sequence.bl_idname,
-            settings,
-            "Trace Sequence...",
-            "RENDER_ANIMATION",
-        )
         layout.use_property_split = True
         layout.use_property_decorate = False
         draw_settings(layout, settings)
@@ -96,6 +65,25 @@ class INVOLUTE_PT_trace(bpy.types.Panel):
         header.label(text="Where It Goes")
         if body is not None:
             draw_placing(body, settings)
+
+
+def _what_to_trace(
+    column: bpy.types.UILayout, context: bpy.types.Context, settings: object
+) -> None:
+    """A button for what is selected, and those that ask for files."""
+    column.scale_y = 1.3
+    active = context.active_object
+    if plays_frames(active):
+        said = label("Trace What {name} Plays", name=active.name)
+        _button(column, INVOLUTE_OT_trace_sequence, settings, said, "RENDER_ANIMATION")
+    elif is_image_empty(active):
+        said = label("Trace {name}", name=active.name)
+        _button(column, INVOLUTE_OT_trace, settings, said, "GREASEPENCIL")
+    row = column.row(align=True)
+    _button(row, INVOLUTE_OT_import_scan, settings, "Trace Files...", "FILE_FOLDER")
+    row.operator(INVOLUTE_OT_paste.bl_idname, text="", icon="PASTEDOWN")
+    said = "Trace Sequence..."
+    _button(column, INVOLUTE_OT_import_sequence, settings, said, "RENDER_ANIMATION")
 
 
 class INVOLUTE_PT_summary(bpy.types.Panel):
@@ -121,6 +109,8 @@ class INVOLUTE_PT_summary(bpy.types.Panel):
         except InvoluteError as problem:
             draw_sentence(self.layout, message(problem), "ERROR")
             return
+        if shown.object != context.active_object:
+            self.layout.label(text=shown.object.name, icon="GREASEPENCIL", translate=False)
         drawing = shown.trace.drawing
         seconds = sum(drawing.seconds.values())
         column = self.layout.column(align=True)
@@ -137,10 +127,14 @@ class INVOLUTE_PT_summary(bpy.types.Panel):
         )
         for text in (drawn, found):
             column.label(text=text, translate=False)
-        row = self.layout.row(align=True)
+        for icon, sentences in (("ERROR", drawing.warnings), ("INFO", drawing.notes)):
+            for sentence in sentences:
+                draw_sentence(self.layout, message(sentence), icon)
+        column = self.layout.column(align=True)
+        row = column.row(align=True)
         row.operator(INVOLUTE_OT_trace_again.bl_idname, icon="FILE_REFRESH")
         row.operator(INVOLUTE_OT_take_settings.bl_idname, text="", icon="EYEDROPPER")
-        row.prop(shown.view, "live", text="", icon="PLAY")
+        column.prop(shown.view, "live", toggle=True, icon="PLAY")
         if drawing.pencil is not None:
             column = self.layout.column(align=True)
             column.operator(INVOLUTE_OT_merge_lines.bl_idname, icon="AUTOMERGE_ON")
@@ -149,7 +143,7 @@ class INVOLUTE_PT_summary(bpy.types.Panel):
         if scan is not None:
             row = self.layout.row(align=True)
             row.prop(scan, "color", index=3, text="Scan", slider=True)
-            row.prop(scan, "hide_viewport", text="", icon="HIDE_OFF", invert_checkbox=True)
+            row.prop(scan, "hide_viewport", text="")
 
 
 def draw_sentence(layout: bpy.types.UILayout, sentence: str, icon: str) -> None:
@@ -160,10 +154,10 @@ def draw_sentence(layout: bpy.types.UILayout, sentence: str, icon: str) -> None:
 
 
 def _button(
-    layout: bpy.types.UILayout, operator: str, settings: object, text: str, icon: str
+    layout: bpy.types.UILayout, operator: type, settings: object, text: str, icon: str
 ) -> None:
     """A button that traces with the settings of the sidebar."""
-    button = layout.operator(operator, text=text, icon=icon)
+    button = layout.operator(operator.bl_idname, text=text, icon=icon)
     for name, value in as_values(settings).items():
         setattr(button, name, value)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -25,7 +26,7 @@ class PixelMap:
     right: Array
     down: Array
 
-    @property
+    @cached_property
     def unit(self) -> float:
         """The length of a pixel, for widths."""
         return float(np.sqrt(np.linalg.norm(self.right) * np.linalg.norm(self.down)))

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -146,6 +147,17 @@ class _Splicer:
                     found[index].append(piece)
         return {i: sorted(pieces, key=lambda p: p.along[0]) for i, pieces in found.items()}
 
+    @cached_property
+    def _traced(self) -> Curves:
+        """The strokes that `pieces` is about, in its order, as the engine made them."""
+        strokes = [self.old.strokes[index] for index in self.pieces]
+        return stroke_curves(strokes, self.pixel_map, self.key, 0)
+
+    @cached_property
+    def _rows(self) -> dict[int, int]:
+        """The first row of each of them."""
+        return dict(zip(self.pieces, self._traced.offsets.tolist(), strict=False))
+
     def is_untouched(self, index: int) -> bool:
         """Is the stroke still just as the engine made it?"""
         stroke, pieces = self.old.strokes[index], self.pieces[index]
@@ -154,12 +166,13 @@ class _Splicer:
         piece = pieces[0]
         if piece.cyclic != stroke.closed or piece.bezier != (stroke.handles is not None):
             return False
-        traced = stroke_curves([stroke], self.pixel_map, self.key, 0).points
+        part = slice(self._rows[index], self._rows[index] + len(stroke.points))
         for name, col in piece.points.items():
-            if name in traced:
-                is_place = traced[name].type == "FLOAT_VECTOR"
-                near = EPSILON * self.pixel_map.unit if is_place else 1e-3 * traced[name].values
-                if name != ALONG and (np.abs(col.values - traced[name].values) > near).any():
+            made = self._traced.points.get(name)
+            if made is not None and (piece.bezier or not name.startswith("handle_")):
+                values, is_place = made.values[part], made.type == "FLOAT_VECTOR"
+                near = EPSILON * self.pixel_map.unit if is_place else 1e-3 * values
+                if name != ALONG and (np.abs(col.values - values) > near).any():
                     return False
             elif col.values.any() and not name.startswith((".", "handle_")):
                 return False  # such as a colour painted on

@@ -11,6 +11,8 @@ artist has worked on it (named with a dot: hidden from the lists in the interfac
                                    change
     involute_line     per stroke   of a pencil stroke: `.involute_half` of the line that it is part
                                    of, as it was traced; 0 = of none
+    involute_dash     per stroke   how long the dashes and the gaps of a dashed line are; (0, 0) of
+                                   another line; missing where there is none
     .involute_along   per point    length along the stroke as it was traced, in pixels
 
 Blender interpolates the last one when points are added and keeps it when they move, so it still
@@ -36,6 +38,7 @@ POLY, BEZIER = 1, 2  # Blender's numbers for the types of a curve
 TRACE, HALF, ALONG = ".involute_trace", ".involute_half", ".involute_along"
 ROUTING = ".involute_routing"
 LINE = "involute_line"
+DASH = "involute_dash"
 
 WEIGHT = "WEIGHT"  # no attribute but a vertex group: see `vertex_weights`
 
@@ -146,6 +149,9 @@ def stroke_curves(
         TRACE: column("INT", np.full(len(sizes), key)),
         HALF: column("INT", halves),
     }
+    dashes = np.array([s.dash or (0.0, 0.0) for s in strokes])
+    if dashes.any():
+        curve_columns[DASH] = column("FLOAT2", dashes * pixel_map.unit)
     return Curves(offsets, point_columns, curve_columns)
 
 
