@@ -3,6 +3,22 @@
 from __future__ import annotations
 
 TEXTS = {
+    # pencil and its lines
+    "Merge to One Line": "Fusionner en une ligne",
+    "Make one line of the selected strokes, in the middle of them; pencil strokes stay": (
+        "Faire une seule ligne des traits sélectionnés, en leur milieu ; "
+        "les traits de crayon restent"
+    ),
+    "Split into Pencil Strokes": "Séparer en traits de crayon",
+    "Put the pencil strokes that say a line in its place, for all selected lines": (
+        "Remplacer chaque ligne sélectionnée par les traits de crayon dont elle est faite"
+    ),
+    "Select two or more strokes that are one line.": (
+        "Sélectionnez au moins deux traits qui forment une ligne."
+    ),
+    "Select lines that were made of pencil strokes.": (
+        "Sélectionnez des lignes faites de traits de crayon."
+    ),
     "Trace Drawing": "Vectoriser un dessin",
     "Turn a scanned drawing into Grease Pencil strokes that run straight through junctions": (
         "Transformer un dessin numérisé en traits de crayon gras qui traversent les jonctions "

@@ -3,6 +3,21 @@
 from __future__ import annotations
 
 TEXTS = {
+    # pencil and its lines
+    "Merge to One Line": "Zu einer Linie verbinden",
+    "Make one line of the selected strokes, in the middle of them; pencil strokes stay": (
+        "Aus den ausgewählten Strichen eine Linie in ihrer Mitte machen; Bleistiftstriche bleiben"
+    ),
+    "Split into Pencil Strokes": "In Bleistiftstriche zerlegen",
+    "Put the pencil strokes that say a line in its place, for all selected lines": (
+        "Alle ausgewählten Linien durch die Bleistiftstriche ersetzen, aus denen sie wurden"
+    ),
+    "Select two or more strokes that are one line.": (
+        "Wähle zwei oder mehr Striche aus, die eine Linie sind."
+    ),
+    "Select lines that were made of pencil strokes.": (
+        "Wähle Linien aus, die aus Bleistiftstrichen wurden."
+    ),
     # tracing
     "Trace Drawing": "Zeichnung nachziehen",
     "Turn a scanned drawing into Grease Pencil strokes that run straight through junctions": (

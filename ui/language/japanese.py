@@ -3,6 +3,21 @@
 from __future__ import annotations
 
 TEXTS = {
+    # pencil and its lines
+    "Merge to One Line": "一本の線に統合",
+    "Make one line of the selected strokes, in the middle of them; pencil strokes stay": (
+        "選択したストロークの中央に一本の線を作ります。鉛筆のストロークは残ります"
+    ),
+    "Split into Pencil Strokes": "鉛筆のストロークに分割",
+    "Put the pencil strokes that say a line in its place, for all selected lines": (
+        "選択した線を、元になった鉛筆のストロークに置き換えます"
+    ),
+    "Select two or more strokes that are one line.": (
+        "一本の線になるストロークを二つ以上選択してください。"
+    ),
+    "Select lines that were made of pencil strokes.": (
+        "鉛筆のストロークから作られた線を選択してください。"
+    ),
     "Trace Drawing": "線画をトレース",
     "Turn a scanned drawing into Grease Pencil strokes that run straight through junctions": (
         "スキャンした線画を、交点をまっすぐ通り抜けるグリースペンシルのストロークに変換します"
