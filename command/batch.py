@@ -11,12 +11,13 @@ import os
 import sys
 from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor, as_completed
-from contextlib import suppress
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import closing, suppress
 from dataclasses import dataclass, field, replace
-from functools import cache
+from functools import lru_cache
 from itertools import chain
 from pathlib import Path
+from queue import SimpleQueue
 from typing import TYPE_CHECKING, Any
 
 from ..engine.errors import InvoluteError
@@ -40,6 +41,8 @@ class Task:
 
     receipt: where it is noted what was made; "" = beside the first output.
     turn: look at the drawing in the same pose however its page was turned; see `vectorize`.
+    stretch: number of the stretch of a sequence that it is a frame of; one process traces all of
+        them in their order, since each takes over what has not changed. None = it stands alone.
     """
 
     source: str
@@ -48,6 +51,7 @@ class Task:
     page: int = 0
     receipt: str = ""
     turn: bool = True
+    stretch: int | None = None
 
 
 @dataclass(frozen=True)
@@ -122,7 +126,7 @@ def run(
         if jobs <= 1:
             yield from _here(chain.from_iterable(groups), before, progress, begin)
         else:
-            yield from _elsewhere(groups, before, min(jobs, machine.cores()))
+            yield from _elsewhere(_stretches(groups), before, min(jobs, machine.cores()))
     finally:
         clear_up()  # a worker of a killed run may have ended only now
 
@@ -174,28 +178,47 @@ def _here(
         _frame_before.cache_clear()  # for the memory
 
 
+def _stretches(groups: Sequence[Sequence[Task]]) -> list[list[Task]]:
+    """What one process is to trace in one go: groups whose first tasks are of one stretch, in
+    their order. So a drawing does not depend on how many processes there are."""
+    together: dict[object, list[Task]] = {}
+    for number, group in enumerate(groups):
+        stretch = group[0].stretch
+        key = ("alone", number) if stretch is None else ("stretch", stretch)
+        together.setdefault(key, []).extend(group)
+    return list(together.values())
+
+
 def _elsewhere(
-    groups: Sequence[Sequence[Task]], before: Callable[[Task], _Todo | Outcome], jobs: int
+    stretches: Sequence[Sequence[Task]], before: Callable[[Task], _Todo | Outcome], jobs: int
 ) -> Iterator[Outcome]:
     from .workers import Workers
 
     workers = Workers(jobs)
+    done: SimpleQueue[Outcome | BaseException] = SimpleQueue()
 
-    def trace(group: Sequence[Task]) -> list[Outcome]:
-        found = [before(task) for task in group]
-        # One process for all of them: it remembers what it has just drawn.
-        replies = iter(workers.trace([todo.task for todo in found if isinstance(todo, _Todo)]))
-        return [
-            todo if isinstance(todo, Outcome) else _outcome(task, todo, next(replies))
-            for task, todo in zip(group, found, strict=True)
-        ]
+    def trace(stretch: Sequence[Task]) -> None:
+        try:
+            found = [before(task) for task in stretch]
+            left = [todo.task for todo in found if isinstance(todo, _Todo)]
+            # One process for all of them: it remembers what it has just drawn.
+            with closing(workers.trace(left)) as replies:
+                for task, todo in zip(stretch, found, strict=True):
+                    ended = isinstance(todo, Outcome)
+                    done.put(todo if ended else _outcome(task, todo, next(replies)))
+        except BaseException as error:  # whoever waits for it must hear of it
+            done.put(error)
 
     executor = ThreadPoolExecutor(jobs, thread_name_prefix="involute")
     try:
-        futures = [executor.submit(trace, group) for group in groups]
-        for future in as_completed(futures):
+        for stretch in stretches:
+            executor.submit(trace, stretch)
+        for _ in range(sum(map(len, stretches))):
+            outcome = done.get()
+            if isinstance(outcome, BaseException):
+                raise outcome
             stopping.check()
-            yield from future.result()
+            yield outcome
     finally:
         workers.stop()
         executor.shutdown(wait=True, cancel_futures=True)
@@ -254,9 +277,9 @@ def perform(task: Task, progress: Callable[[str, float], None] | None = None) ->
 _newest: dict[str, Drawing] = {}  # fingerprint -> the drawing that this process made last
 
 
-@cache
-def _frame_before() -> FrameBefore:
-    """What this process saw in the last frame of a sequence."""
+@lru_cache(maxsize=1)
+def _frame_before(stretch: int) -> FrameBefore:
+    """What this process saw in the last frame of a stretch."""
     from ..engine.centerline.frame_before import FrameBefore
 
     return FrameBefore()
@@ -270,7 +293,7 @@ def _traced(task: Task, key: str, progress: Callable[[str, float], None] | None)
     if key in _newest:
         return _newest[key].with_seconds({})
     _newest.clear()
-    before = None if task.turn else _frame_before()
+    before = None if task.stretch is None else _frame_before(task.stretch)
     drawing = vectorize(
         task.source, task.settings, progress, page=task.page, turn=task.turn, before=before
     )

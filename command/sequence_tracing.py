@@ -17,6 +17,9 @@ from .receipts import Standing
 from .temporary import temporary_folder
 
 PARTS_REPLACE = frozenset({Standing.FOREIGN})  # a part without receipt is of an older Involute
+# Frames that one process traces one after the other. A stretch begins with a frame that takes over
+# nothing from another, so that the number of processes makes no difference.
+_STRETCH = 12
 Progress = Callable[[Frame, batch.Outcome], None]
 
 
@@ -80,8 +83,16 @@ def part_tasks(
     folder = make_folder(Path(parts))
     places = [folder / part_name(frame) for frame in frames]
     return [
-        batch.Task(f.path, (str(at),), settings, f.page, str(receipts.path_for(at)), turn=False)
-        for f, at in zip(frames, places, strict=True)
+        batch.Task(
+            source=frame.path,
+            outputs=(str(place),),
+            settings=settings,
+            page=frame.page,
+            receipt=str(receipts.path_for(place)),
+            turn=False,
+            stretch=number // _STRETCH,
+        )
+        for number, (frame, place) in enumerate(zip(frames, places, strict=True))
     ]
 
 

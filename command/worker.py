@@ -44,6 +44,7 @@ def main() -> None:
             asked["page"],
             asked["receipt"],
             asked["turn"],
+            asked["stretch"],
         )
         answers.write(json.dumps(batch.perform(task)) + "\n")
         answers.flush()

@@ -7,7 +7,7 @@ import os
 import subprocess
 import sys
 import threading
-from collections.abc import Mapping, Sequence
+from collections.abc import Generator, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 from queue import SimpleQueue
@@ -34,13 +34,16 @@ class Workers:
         for _ in range(jobs):
             self._idle.put(_Worker())
 
-    def trace(self, tasks: Sequence[Task]) -> list[Mapping[str, Any]]:
-        """Wait for an idle worker and let it trace; its answers are those of `batch.perform`."""
+    def trace(self, tasks: Sequence[Task]) -> Generator[Mapping[str, Any]]:
+        """Wait for an idle worker and let it trace; its answers are those of `batch.perform`, as
+        they come."""
         if not tasks:
-            return []
+            return
         worker = self._idle.get()
         try:
-            return [self._answer(worker, task) for task in tasks]
+            worker.retire_when_due()
+            for task in tasks:
+                yield self._answer(worker, task)
         finally:
             self._idle.put(worker)
 
@@ -72,9 +75,14 @@ class _Worker:
         self._process: subprocess.Popen[str] | None = None
         self._left = 0
 
+    def retire_when_due(self) -> None:
+        """End a process that has traced enough images; never in the middle of a stretch."""
+        if self._left <= 0:
+            self.end()
+
     def ensure(self, threads: int) -> None:
-        """Have a live process with images left to trace."""
-        if self._process and (self._left <= 0 or self._process.poll() is not None):
+        """Have a live process."""
+        if self._process and self._process.poll() is not None:
             self.end()
         if self._process is None:
             self._process = _start(threads)
@@ -89,6 +97,7 @@ class _Worker:
             "settings": task.settings.as_dict(),
             "receipt": task.receipt,
             "turn": task.turn,
+            "stretch": task.stretch,
         }
         process = self._process
         try:
