@@ -16,14 +16,14 @@ _COLUMNS = 4
 
 
 def chart(record: Record) -> str:
-    """A panel for every column of the figures: lines over the page's size where the rows have
+    """A panel for every column of the figures: lines over the page's size where its rows have
     one, else bars."""
-    panel = _lines if all(_SIZED.match(row) for row in record.figures) else _bars
     columns = list(dict.fromkeys(name for row in record.figures.values() for name in row))
     panels = []
     for number, column in enumerate(columns):
         values = {row: v[column] for row, v in record.figures.items() if column in v}
         x, y = number % _COLUMNS * _PANEL[0], 40 + number // _COLUMNS * _PANEL[1]
+        panel = _lines if all(_SIZED.match(row) for row in values) else _bars
         drawn = [_text(8, 16, column, "bold"), *panel(values)]
         panels.append(f'<g transform="translate({x} {y})">' + "".join(drawn) + "</g>")
     width = min(len(columns), _COLUMNS) * _PANEL[0]

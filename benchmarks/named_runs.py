@@ -41,6 +41,7 @@ RUNS: dict[str, NamedRun] = {
         "lost_and_invented", "ink lost and invented on the benchmark's pages, or --scans"
     ),
     "speed": NamedRun("speed", "seconds by page and stage, growth, rivals", ("--pages", "all")),
+    "speed_against": NamedRun("speed_against", "processor time against an older checkout's"),
     "graph_stage": NamedRun("graph_stage", "the graph behind perfect centerlines", ("--ideal",)),
     "graph_limits": NamedRun("graph_limits", "every limit of the graph, halved and doubled"),
     "scan_limits": NamedRun("scan_limits", "limits of broad lines and rules, on held-out pages"),

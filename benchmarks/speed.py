@@ -102,10 +102,10 @@ def _cells(kind: str, folder: Path) -> Iterator[np.ndarray]:
     zoom, pen = kind.split(", ")
     truths = cycle([p.true_strokes() for p in pages(folder)])
     while True:
-        yield _drawn(truths, _ZOOMS[zoom], _PENS[pen])
+        yield drawn(truths, _ZOOMS[zoom], _PENS[pen])
 
 
-def _drawn(truths: Iterator[list[np.ndarray]], zoom: float, pen: float) -> np.ndarray:
+def drawn(truths: Iterator[list[np.ndarray]], zoom: float, pen: float) -> np.ndarray:
     """A cell full of true drawings at a size; those larger than the cell are cut."""
     import cv2
 

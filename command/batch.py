@@ -14,6 +14,7 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, S
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
+from functools import cache
 from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -27,6 +28,7 @@ from .inputs import Inputs
 from .receipts import Standing
 
 if TYPE_CHECKING:
+    from ..engine.centerline.frame_before import FrameBefore
     from ..engine.drawing import Drawing
 
 _MEMORY_PER_WORKER = 1.5e9  # bytes, for a page of A4 at 300 dpi with room to spare
@@ -158,15 +160,18 @@ def _here(
     progress: Callable[[str, float], None] | None,
     begin: Callable[[Task], None] | None,
 ) -> Iterator[Outcome]:
-    for task in tasks:
-        stopping.check()
-        if begin:
-            begin(task)
-        todo = before(task)
-        if isinstance(todo, Outcome):
-            yield todo
-        else:
-            yield _outcome(task, todo, perform(todo.task, progress))
+    try:
+        for task in tasks:
+            stopping.check()
+            if begin:
+                begin(task)
+            todo = before(task)
+            if isinstance(todo, Outcome):
+                yield todo
+            else:
+                yield _outcome(task, todo, perform(todo.task, progress))
+    finally:
+        _frame_before.cache_clear()  # for the memory
 
 
 def _elsewhere(
@@ -249,6 +254,14 @@ def perform(task: Task, progress: Callable[[str, float], None] | None = None) ->
 _newest: dict[str, Drawing] = {}  # fingerprint -> the drawing that this process made last
 
 
+@cache
+def _frame_before() -> FrameBefore:
+    """What this process saw in the last frame of a sequence."""
+    from ..engine.centerline.frame_before import FrameBefore
+
+    return FrameBefore()
+
+
 def _traced(task: Task, key: str, progress: Callable[[str, float], None] | None) -> Drawing:
     """The drawing of a task; that of the last one, at no cost, where it has the same key."""
     from ..engine.pipeline import vectorize
@@ -257,7 +270,10 @@ def _traced(task: Task, key: str, progress: Callable[[str, float], None] | None)
     if key in _newest:
         return _newest[key].with_seconds({})
     _newest.clear()
-    drawing = vectorize(task.source, task.settings, progress, page=task.page, turn=task.turn)
+    before = None if task.turn else _frame_before()
+    drawing = vectorize(
+        task.source, task.settings, progress, page=task.page, turn=task.turn, before=before
+    )
     if key:
         _newest[key] = drawing
     return drawing

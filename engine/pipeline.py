@@ -17,6 +17,7 @@ from time import perf_counter
 from typing import Any, TypeVar
 
 from .centerline import provider_for
+from .centerline.frame_before import FrameBefore
 from .centerline.mending import mended
 from .drawing import Drawing, Fill
 from .errors import Cancelled
@@ -62,6 +63,7 @@ def vectorize(
     page: int = 0,
     turn: bool = True,
     kept: KeptStages | None = None,
+    before: FrameBefore | None = None,
 ) -> Drawing:
     """Trace one drawing.
 
@@ -75,6 +77,7 @@ def vectorize(
             for the frames of a sequence, which are looked at alike, each as it lies.
         kept: what was made in earlier traces; only what the settings have changed since runs, and
             what it makes is kept there, too, even when the trace is cancelled.
+        before: the frame before it in a sequence; what is unchanged is not looked at again.
 
     Returns:
         The drawing in pixels of the input; `drawing.seconds` says how long each stage took that
@@ -89,7 +92,8 @@ def vectorize(
         with clock("graph"):
             drawing = drawing_of_vectors(Path(source), settings or Settings(), vectorize)
     else:
-        drawing = _Trace(source, page, settings or Settings(), turn, clock, kept).drawing()
+        trace = _Trace(source, page, settings or Settings(), turn, clock, kept, before)
+        drawing = trace.drawing()
     return drawing.with_seconds(clock.seconds)
 
 
@@ -104,7 +108,9 @@ class _Trace:
         turn: bool,
         clock: _Clock,
         kept: KeptStages | None,
+        before: FrameBefore | None = None,
     ) -> None:
+        self._before = before
         self._source, self._page, self._settings = source, page, settings
         self._turn = turn and not settings.align  # those places are of the page as it lies
         self._clock, self._kept = clock, kept
@@ -153,7 +159,8 @@ class _Trace:
         settings, (wide, lines, _) = self._settings, self.solids()
         with self._clock("centerline") as tick:
             look = provider_for(settings)
-            maps = look(lines, tick)
+            seen_before = self._before
+            maps = seen_before.look(lines, settings, tick) if seen_before else look(lines, tick)
             if wide.any:
                 maps = look_again(maps, lines, wide, look, settings)
             if settings.provider in ("auto", "network", "lean") and maps.half_width is not None:
@@ -264,4 +271,4 @@ class _Clock:
             self._progress(self._stage, min(1.0, begin + _SHARES[self._stage] * fraction))
 
 
-__all__ = ["Cancelled", "KeptStages", "Progress", "Source", "vectorize"]
+__all__ = ["Cancelled", "FrameBefore", "KeptStages", "Progress", "Source", "vectorize"]

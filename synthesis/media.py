@@ -121,6 +121,7 @@ def nearest(
         kept = (
             (np.round(arc / step).astype(int) % stride == 0) | (arc < step) | (arc > length - step)
         )
+        kept[0] = True  # of a short piece away from both ends, too
         ids = ids[kept]
         half = 0.6 * stride * step
         r = int(np.ceil(high if high < 40 else radius[ids].max()))

@@ -7,6 +7,8 @@
     5.2     bpy 5.2 on Python 3.13: the same extension
     fast    what runs networks, with the extra `fast`: ONNX Runtime
     torch   training tests, in an environment made by plain pip from training/requirements.txt
+    coverage  branch coverage of what must not fail: formats, batches, sequences, what a .blend
+              remembers; only when it is named
 
 The environments are made when missing, in .venv-NAME.
 """
@@ -20,7 +22,7 @@ import shutil
 import subprocess
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import cache
 from pathlib import Path
 
@@ -38,7 +40,7 @@ def main(argv: list[str] | None = None) -> int:
     parser.add_argument("names", nargs="*", metavar="NAME", help="default: " + " ".join(RUNS))
     parser.add_argument("--seed", type=int, help="of the property tests; else a new one")
     options = parser.parse_args(argv)
-    names = options.names or list(RUNS)
+    names = options.names or [name for name in RUNS if name not in ON_REQUEST]
     if unknown := set(names) - set(RUNS):
         parser.error(f"unknown: {', '.join(sorted(unknown))}; choose from {', '.join(RUNS)}")
     if libraries := system_libraries.missing():
@@ -129,19 +131,55 @@ def in_torch(seed: int) -> tuple[bool, str]:
     return _pytest(_python(home), "tests/training", _seeded(seed))
 
 
+def in_coverage(seed: int) -> tuple[bool, str]:
+    """The tests of what must not fail, and which of its branches none of them took."""
+    _call([sys.executable, "-m", "coverage", "erase"])
+    passed, closing = _pytest(
+        Path(sys.executable), *_COVERED_BY, _seeded(seed), under=("coverage", "run", "-m"),
+        INVOLUTE_ZIP=_extension(),
+    )  # fmt: skip
+    _call([sys.executable, "-m", "coverage", "combine", "--quiet"])
+    report = [sys.executable, "-m", "coverage", "report"]
+    told = subprocess.run(report, cwd=ROOT, capture_output=True, text=True, check=False).stdout
+    print(told, flush=True)
+    total = next((line.split()[-1] for line in told.splitlines() if "TOTAL" in line), "none")
+    return passed, f"{total} of lines and branches; {closing}"
+
+
+_COVERED_BY = (
+    *(f"tests/engine/test_{name}.py" for name in ("formats", "damaged_drawings", "exchange")),
+    "tests/command",
+    *(f"tests/blender/test_{name}.py" for name in ("state", "series", "splicing", "sequence")),
+)
+ON_REQUEST = ("coverage",)
 RUNS: dict[str, Callable[[int], tuple[bool, str]]] = {
     "main": in_this_environment,
     "4.5": lambda seed: in_blender("4.5", "4.5.15", "3.11"),
     "5.2": lambda seed: in_blender("5.2", "5.2.3", "3.13"),
     "fast": in_fast,
     "torch": in_torch,
+    "coverage": in_coverage,
 }
 
 
-def _pytest(python: Path, *what: str, **environment: str) -> tuple[bool, str]:
-    """Run tests, shown as they run; whether all passed, and pytest's closing line."""
+def _pytest(
+    python: Path, *what: str, under: Sequence[str] = (), **environment: str
+) -> tuple[bool, str]:
+    """Run tests, shown as they run; whether all passed, and pytest's closing line.
+
+    under: arguments of Python that run pytest in something else.
+    """
     env = {k: v for k, v in os.environ.items() if k not in ("VIRTUAL_ENV", "PYTHONPATH")}
-    command = [str(python), "-m", "pytest", *what, "--durations=5", "-p", "no:cacheprovider"]
+    command = [
+        str(python),
+        "-m",
+        *under,
+        "pytest",
+        *what,
+        "--durations=5",
+        "-p",
+        "no:cacheprovider",
+    ]
     process = subprocess.Popen(
         command, cwd=ROOT, env={**env, **environment}, text=True, errors="replace",
         stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,

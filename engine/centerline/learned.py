@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
+from pathlib import Path
 from typing import TypeVar
 
 import numpy as np
@@ -41,22 +42,40 @@ def provider(settings: Settings, features: bool = False) -> CenterlineProvider:
     Raises:
         InvoluteError: the weights are missing, or there is no GPU though one is asked for.
     """
-    chosen = LEAN if settings.provider == "lean" else WEIGHTS
     if features:
-        both = load_both(chosen, settings.device)
+        both = load_both(_chosen(settings), settings.device)
         return lambda scan, tick: trace_both(scan.ink, both, tick)
-    infer = load(chosen, settings.device)
-    return lambda scan, tick: trace_maps(scan.ink, infer, tick)
+    look = at(settings)
+    return lambda scan, tick: look(scan.ink, tick, None, None)
 
 
-def trace_maps(ink: Array, infer: Infer, tick: Tick) -> LineMaps:
+def _chosen(settings: Settings) -> Path:
+    return LEAN if settings.provider == "lean" else WEIGHTS
+
+
+def at(
+    settings: Settings,
+) -> Callable[[Array, Tick, tuple[int, int] | None, Array | None], LineMaps]:
+    """`trace_maps` with the network that the settings ask for; raises as `provider` does."""
+    infer = load(_chosen(settings), settings.device)
+    return lambda ink, tick, shift, wanted: trace_maps(ink, infer, tick, shift, wanted)
+
+
+def trace_maps(
+    ink: Array,
+    infer: Infer,
+    tick: Tick,
+    shift: tuple[int, int] | None = None,
+    wanted: Array | None = None,
+) -> LineMaps:
     """The maps of a page, (H, W) float32 ink in [0, 1], without features.
 
-    On pages of more than 24 megapixels, all but centerline and half_width are None: memory. Older
-    weights have no doubled, apart and clean.
+    `shift` and `wanted` are those of `tiles.look`. On pages of more than 24 megapixels, all but
+    centerline and half_width are None: memory. Older weights have no doubled, apart and clean.
     """
     maps = _room(ink, _paper(infer).shape[0])
-    look(ink, lambda window: _cut(infer(_padded(window)), window.shape), maps, tick)
+    answers = lambda window: _cut(infer(_padded(window)), window.shape)  # noqa: E731
+    look(ink, answers, maps, tick, shift, wanted)
     return _named(maps)
 
 

@@ -215,6 +215,8 @@ def look(
     infer: Callable[[Array], Iterable[Array]],
     maps: Sequence[Array | None],
     tick: Callable[[float], None],
+    shift: tuple[int, int] | None = None,
+    wanted: Array | None = None,
 ) -> None:
     """Run a network over all inked blocks of a page and write its answers into the maps.
 
@@ -225,11 +227,14 @@ def look(
         maps: as many arrays (H, W) or (H / 2, W / 2), float32, zero, and left so on white paper;
             None = not wanted.
         tick: called with the fraction that is done; what it raises passes through.
+        shift: rows and columns of paper before the page; None = those of `shift_of`.
+        wanted: which blocks are to be answered, of the page so shifted; None = all with ink.
     """
-    shift = shift_of(ink)
+    shift = shift_of(ink) if shift is None else shift
     active = active_blocks(ink, shift)
+    asked = active if wanted is None else active & wanted
     height, width = ink.shape[0] + shift[0], ink.shape[1] + shift[1]
-    tiles = plan(active)
+    tiles = plan(asked)
     total = sum(tile.area for tile in tiles)
     done = 0
     for tile in tiles:
@@ -239,7 +244,7 @@ def look(
         # The tile without the paper that was put before the page, and what lies beyond it.
         top, left = max(tile.top, shift[0]), max(tile.left, shift[1])
         bottom, right = min(tile.bottom, height), min(tile.right, width)
-        inked = active[np.arange(top, bottom)[:, None] // BLOCK, np.arange(left, right) // BLOCK]
+        inked = asked[np.arange(top, bottom)[:, None] // BLOCK, np.arange(left, right) // BLOCK]
         corner = top - rows.start, left - columns.start
         place = top - shift[0], left - shift[1]
         for answer, target in zip(answers, maps, strict=True):

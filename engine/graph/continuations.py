@@ -170,8 +170,11 @@ def _fit(half: Courses, pairs: Array, value: Array) -> Fits:
     total[(ends[:, 1] < ends[:, 0]) | ~np.isfinite(total)] = NEVER
     coefficients[some], span[some] = c, ends
     offset[some] = np.stack([y[:, 0], y[:, n]], -1) - across
-    dark = sample(value, fits.pick(some).sampled()).min(1)
-    total[dark < LIMITS.continue_ink * np.minimum(half.level[a], half.level[b])] = NEVER
+    # Whether it leaves the ink is asked only of those that cost less than to join none.
+    cheap = np.flatnonzero(total < 2 * ALONE)
+    dark = sample(value, fits.pick(some[cheap]).sampled()).min(1)
+    level = np.minimum(half.level[a[cheap]], half.level[b[cheap]])
+    total[cheap[dark < LIMITS.continue_ink * level]] = NEVER
     cost[some] = np.minimum(total, NEVER)
     return fits
 

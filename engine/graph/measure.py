@@ -36,10 +36,11 @@ def measure(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> Plana
         widths = 2 * sample(maps.half_width, graph.points)
         # Of a dot the network sees half; nothing where another provider has seen the line.
         unknown = np.isnan(widths) | np.repeat(_dots(graph, scan), np.diff(graph.offsets))
-        if unknown.any():
-            widths = np.where(unknown, _widths(graph, scan), widths)
+        asked = np.flatnonzero(unknown)
+        if len(asked):
+            widths[asked] = _widths(graph, scan, asked)
     else:
-        widths = _widths(graph, scan)
+        widths = _widths(graph, scan, np.arange(len(graph.points)))
     widths = np.where(np.isfinite(widths) & (widths > 0), widths, scan.pen_width)
     bare = over_paper(graph, scan) if settings.dashes else None
     near = slice(None) if bare is None else _nearest_ink(graph, scan, bare)
@@ -91,14 +92,15 @@ def _dots(graph: PlanarGraph, scan: Scan) -> Array:
     return (length < _SHORT) | (alone & (length < _DOT * scan.pen_width))
 
 
-def _widths(graph: PlanarGraph, scan: Scan) -> Array:
-    """(P,) width of the ink across the line: to half the darkness of its middle on either side."""
+def _widths(graph: PlanarGraph, scan: Scan, asked: Array) -> Array:
+    """(N,) width of the ink across the line at the points `asked` (N,): to half the darkness of its
+    middle on either side."""
     reach = np.arange(0.0, max(3.0, 2.5 * scan.pen_width) + _STEP, _STEP)
-    normal = _normals(graph)
+    points, normal = graph.points[asked], _normals(graph)[asked]
     sides = []
-    middle = sample(scan.ink, graph.points)
+    middle = sample(scan.ink, points)
     for sign in (-1.0, 1.0):
-        at = graph.points[:, None] + sign * reach[:, None] * normal[:, None]
+        at = points[:, None] + sign * reach[:, None] * normal[:, None]
         profile = sample(scan.ink, at)
         # The darkest point of the line need not be the traced one.
         level = 0.5 * np.maximum(middle, profile[:, :3].max(1))[:, None]

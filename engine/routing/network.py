@@ -14,11 +14,12 @@ from pathlib import Path
 
 import numpy as np
 
-from .. import runtimes, weights
+from .. import weights
 from ..errors import InvoluteError
 from ..values import Array, Pair, PlanarGraph
 from . import geometric
 from .encoding import encode
+from .transformer import Transformer
 from .windows import windows
 
 
@@ -70,14 +71,7 @@ def score(
 def _forward(tokens: Array, pairs: Array, sibling: Array, mask: Array) -> Array:
     """(J, D, D) calibrated scores."""
     net, calibration = load(weights.FOLDER)
-    inputs = {
-        "tokens": tokens,
-        "pairs": pairs,
-        "sibling": sibling.reshape(-1).astype(np.int64),
-        "mask": mask,
-    }
-    (scores,) = net(inputs, 1)
-    return calibrated(scores, mask.sum(1), calibration)
+    return calibrated(net(tokens, pairs, sibling, mask), mask.sum(1), calibration)
 
 
 def calibrated(scores: Array, degree: Array, calibration: Mapping[str, list[float]]) -> Array:
@@ -93,20 +87,16 @@ def calibrated(scores: Array, degree: Array, calibration: Mapping[str, list[floa
     return scores * scale[row][:, None, None] + shift[row][:, None, None]
 
 
-def load(folder: Path) -> tuple[runtimes.Net, dict[str, list[float]]]:
+@cache
+def load(folder: Path) -> tuple[Transformer, dict[str, list[float]]]:
     """The network and its calibration: routing.onnx and routing.json of a folder.
 
     Raises:
         InvoluteError: they are missing or can't be read.
     """
-    return _loaded(folder, runtimes.chosen().name)
-
-
-@cache
-def _loaded(folder: Path, runtime: str) -> tuple[runtimes.Net, dict[str, list[float]]]:
     try:
         calibration = json.loads(weights.read(folder / "routing.json"))
-        net = runtimes.load(weights.read(folder / "routing.onnx"))
+        net = Transformer(weights.read(folder / "routing.onnx"))
     except (OSError, ValueError) as error:
         raise InvoluteError("The weights of the routing network are missing or damaged.") from error
     return net, calibration

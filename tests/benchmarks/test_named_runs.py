@@ -8,6 +8,7 @@ import re
 from pathlib import Path
 from xml.etree import ElementTree
 
+import cv2
 import numpy as np
 import pytest
 from involute.engine import Settings, vectorize
@@ -15,7 +16,15 @@ from involute.engine.weights import names
 from involute.package import ROOT
 
 import benchmarks
-from benchmarks import charts, quality, readme_tables, run_record, side_by_side, speed
+from benchmarks import (
+    charts,
+    quality,
+    readme_tables,
+    run_record,
+    side_by_side,
+    speed,
+    speed_against,
+)
 from benchmarks.__main__ import main
 from benchmarks.aliased import one_bit
 from benchmarks.judged_pages import DATA, pages
@@ -216,3 +225,22 @@ def test_old_results_are_plain_lines(results: Path) -> None:
     Record.of("quality", [], FIGURES).append()
     (line,) = (results / "quality.jsonl").read_text().splitlines()
     assert json.loads(line)["figures"]["theirs"]["f1"] == 0.25
+
+
+def test_times_over_the_size_are_lines_and_growth_is_bars() -> None:
+    rows = {f"scan, {side} px": {"CPU s/MP": 1.0 + side / 1e4} for side in (512, 1024)}
+    drawn = charts.chart(Record.of("speed", [], rows | {"scan: growth": {"involute": 0.99}}))
+    assert drawn.count("<polyline") == 1
+    assert "scan: growth: 0.99" in drawn
+
+
+def test_versions_are_compared_on_all_that_was_promised(tmp_path: Path) -> None:
+    cases = speed_against.cases(tmp_path)
+    assert len(cases["sequence"]) == 12
+    frames = [cv2.imread(str(path), cv2.IMREAD_GRAYSCALE) for path in cases["sequence"][:2]]
+    assert not cv2.absdiff(*frames)[:500].any()
+    assert cv2.absdiff(*frames)[512:, 512:].any()
+    assert cv2.imread(str(cases["A4, 1.5 px"][0])).shape[:2] == (2339, 1654)
+    told = [{"cpu": 9.0, "stages": {"graph": 1.0, "routing": 0.5}, "junctions": 1500}]
+    assert speed_against.seconds("junctions", told) == pytest.approx(3.0)
+    assert speed_against.seconds("A4, 1.5 px", told) == pytest.approx(9.0)

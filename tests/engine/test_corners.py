@@ -16,7 +16,7 @@ from involute.engine.formats.drawing_json import dumps, read
 from involute.engine.graph.lifts import cut_at_lifts, evidence_size
 from involute.engine.graph.topology import join
 from involute.engine.routing import route
-from involute.engine.routing.lifting import goes_on
+from involute.engine.routing.lifting import UNSEEN, goes_on, is_lifting, score
 from involute.engine.values import LineMaps, PlanarGraph, Scan
 from involute.synthesis.true_graph import graph_from_strokes
 
@@ -132,6 +132,31 @@ def test_every_bias_between_is_between() -> None:
         now = goes_on(score, float(bias))
         assert not (now & ~before).any()
         before = now
+
+
+def test_a_page_is_one_of_lifts_when_its_sharp_corners_look_like_it() -> None:
+    sharp, round_off = np.radians(80.0), np.radians(20.0)
+    turns, nothing = np.full(8, sharp), np.zeros(8)
+    doubtful, sure = np.full(8, -0.6), np.full(8, -2.0)  # lifted at 0.65 and 0.88
+    assert not is_lifting(doubtful, nothing, turns)
+    assert is_lifting(sure, nothing, turns)
+    # One sure lift among many corners is not how the page is drawn; bends tell nothing of it.
+    assert not is_lifting(np.where(np.arange(8) < 1, sure, doubtful), nothing, turns)
+    assert not is_lifting(sure, nothing, np.full(8, round_off))
+    # What the artist has decided is certain.
+    assert is_lifting(doubtful, np.where(np.arange(8) < 3, -1.0, 0.0), turns)
+    assert not is_lifting(sure, np.where(np.arange(8) < 7, 1.0, 0.0), turns)
+    assert not is_lifting(sure[:0], nothing[:0], turns[:0])
+
+
+def test_where_nothing_was_seen_the_habit_of_the_page_changes_nothing() -> None:
+    graph, _ = _seen([BOX])
+    clues = np.full((4, 8), 0.25, np.float32)
+    clues[2] = np.nan  # a cut that the artist made
+    found = score(replace(graph, clues=clues), {})
+    assert found[2] == UNSEEN
+    assert np.isfinite(found).all()
+    assert (score(replace(graph, clues=np.full((4, 8), np.nan, np.float32)), {}) == UNSEEN).all()
 
 
 @given(st.integers(0, 200), st.integers(0, 2**32 - 1))

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from involute.engine import InvoluteError, Settings
+from involute.engine import InvoluteError, Settings, runtimes, weights
 from involute.engine.routing import geometric, network, route
 from involute.engine.routing.candidates import candidate_pairs
 from involute.engine.routing.encoding import MAX_DEGREE, encode
@@ -195,6 +195,21 @@ def test_a_star_of_too_many_arms_gets_its_geometric_score() -> None:
 def test_every_degree_gets_finite_scores(arms: int) -> None:
     graph = _star(arms)
     assert np.isfinite(network.score(graph, candidate_pairs(graph))).all()
+
+
+@pytest.mark.parametrize("seed", [3, 8])
+def test_numpy_makes_of_the_weights_what_opencv_does(scribble: Scribble, seed: int) -> None:
+    encoding = encode(scribble(seed, 14)[0])
+    given = (encoding.tokens, encoding.pairs, encoding.sibling, encoding.mask)
+    found = network.load(weights.FOLDER)[0](*given)
+    opencv = runtimes.RUNTIMES[-1].load(weights.read(weights.FOLDER / "routing.onnx"))
+    inputs = dict(zip(("tokens", "pairs", "sibling", "mask"), given, strict=True))
+    inputs["sibling"] = encoding.sibling.reshape(-1).astype(np.int64)
+    filled = encoding.halves >= 0
+    there = filled[:, :, None] & filled[:, None]
+    assert len(encoding.halves) > 5
+    np.testing.assert_allclose(found[there], opencv(inputs, 1)[0][there], atol=1e-4)
+    assert not found[~there].any()
 
 
 def test_a_page_without_junctions_has_no_scores() -> None:

@@ -13,7 +13,7 @@ pytest.importorskip("torch", reason="training needs torch")
 
 from involute.synthesis import extra_marks, held_out_pages, pencilling, tone_dots
 from involute.synthesis.line_art import Library, _spline
-from involute.synthesis.media import DIGITAL, MEDIA, NUDGE, draw
+from involute.synthesis.media import DIGITAL, MEDIA, NUDGE, draw, nearest
 from involute.synthesis.media import sample as samples_of
 from involute.training.centerline import training_page
 from involute.training.centerline.lines_together import UNKNOWN, doubled
@@ -141,6 +141,16 @@ def test_crossings_are_not_doubled_and_coinciding_lines_are_unknown() -> None:
     twice = samples_of([line(5, 40, 123, 40), line(5, 40.2, 123, 40.2)], 128)
     state, _ = doubled(twice, np.full(len(twice), 2.0))
     assert np.median(state) == UNKNOWN
+
+
+@pytest.mark.parametrize("first", range(0, 24, 3))
+def test_a_short_piece_of_a_broad_line_is_drawn(first: int) -> None:
+    """A brush is drawn with few samples, even where only some in its middle are as wide."""
+    line = samples_of([np.array([[5.0, 30], [55, 30]])], 60)
+    piece = line.take(slice(40 + first, 43 + first))
+    distance, owner = nearest(piece, np.full(3, 12.0), 60, 1.0)
+    assert (owner >= 0).any()
+    assert distance.min() == pytest.approx(-12, abs=1)
 
 
 def test_what_lies_long_under_a_wide_pen_has_no_target() -> None:

@@ -1,0 +1,149 @@
+"""What an ONNX file holds: the operations of a network and their weights.
+
+Reads the few protobuf fields that matter (https://protobuf.dev/programming-guides/encoding/,
+https://github.com/onnx/onnx/blob/main/onnx/onnx.proto), so that whoever runs a network's weights in
+another way needs no library for it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from .values import Array
+
+_FLOATS = {1: "<f4", 10: "<f2"}  # data_type of a TensorProto -> of NumPy
+_OTHERS = {6: "<i4", 7: "<i8"}  # numbers that shapes and axes are made of
+
+
+@dataclass(frozen=True)
+class Node:
+    """One operation. attributes: name -> its whole numbers."""
+
+    kind: str
+    inputs: list[str]
+    outputs: list[str]
+    attributes: dict[str, list[int]]
+
+
+@dataclass(frozen=True)
+class Network:
+    """nodes in the order in which they run; weights: name -> float32, or whole numbers."""
+
+    nodes: list[Node]
+    weights: dict[str, Array]
+    inputs: list[str]
+    outputs: list[str]
+
+
+def read(content: bytes) -> Network:
+    """The network in the content of a file.
+
+    Raises:
+        ValueError: it holds none, or one with numbers of a kind that is not known.
+    """
+    try:
+        return _network(memoryview(content))
+    except (IndexError, KeyError, StopIteration, UnicodeDecodeError, TypeError) as error:
+        raise ValueError("this is no ONNX file") from error
+
+
+def _network(content: memoryview) -> Network:
+    graph = next(value for number, value in _fields(content) if number == 7)
+    found = Network([], {}, [], [])
+    for number, value in _fields(graph):  # GraphProto: node 1, initializer 5, input 11, output 12
+        if number == 1:
+            found.nodes.append(_node(value))
+        elif number == 5:
+            name, tensor = _tensor(value)
+            found.weights[name] = tensor
+        elif number in (11, 12):
+            name = next(bytes(v).decode() for n, v in _fields(value) if n == 1)
+            (found.inputs if number == 11 else found.outputs).append(name)
+    return found
+
+
+def _fields(data: memoryview) -> Iterator[tuple[int, Any]]:
+    """Number and value of each field of a protobuf message; fixed-width ones come as bytes."""
+    at = 0
+
+    def varint() -> int:
+        nonlocal at
+        value = shift = 0
+        while True:
+            byte = data[at]
+            at += 1
+            value |= (byte & 0x7F) << shift
+            shift += 7
+            if byte < 0x80:
+                return value
+
+    while at < len(data):
+        key = varint()
+        number, kind = key >> 3, key & 7
+        if kind == 0:
+            yield number, varint()
+            continue
+        size = {1: 8, 2: -1, 5: 4}[kind]
+        size = varint() if size < 0 else size
+        yield number, data[at : at + size]
+        at += size
+
+
+def _ints(value: int | memoryview) -> list[int]:
+    """A repeated integer field: one value, or several packed."""
+    if isinstance(value, int):
+        return [value]
+    # Packed varints read like the values of fields without keys.
+    out, current, shift = [], 0, 0
+    for byte in value:
+        current |= (byte & 0x7F) << shift
+        shift += 7
+        if byte < 0x80:
+            out.append(current)
+            current = shift = 0
+    return out
+
+
+def _tensor(message: memoryview) -> tuple[str, Array]:
+    """A TensorProto: dims 1, data_type 2, name 8, raw_data 9."""
+    dims: list[int] = []
+    name, raw, kind = "", memoryview(b""), 1
+    for number, value in _fields(message):
+        if number == 1:
+            dims += _ints(value)
+        elif number == 2:
+            kind = value
+        elif number == 8:
+            name = bytes(value).decode()
+        elif number == 9:
+            raw = value
+    if kind in _OTHERS:
+        return name, np.frombuffer(raw, _OTHERS[kind]).reshape(dims)
+    if kind not in _FLOATS:
+        raise ValueError(f"the file holds numbers of a kind that is not known: {kind}")
+    return name, np.frombuffer(raw, _FLOATS[kind]).reshape(dims).astype(np.float32)
+
+
+def _node(message: memoryview) -> Node:
+    """A NodeProto: input 1, output 2, op_type 4, attribute 5 (name 1, i 3, ints 8)."""
+    kind, inputs, outputs, attributes = "", [], [], {}
+    for number, value in _fields(message):
+        if number == 1:
+            inputs.append(bytes(value).decode())
+        elif number == 2:
+            outputs.append(bytes(value).decode())
+        elif number == 4:
+            kind = bytes(value).decode()
+        elif number == 5:
+            name, ints = "", []
+            for inner, content in _fields(value):
+                if inner == 1:
+                    name = bytes(content).decode()
+                elif inner in (3, 8):
+                    ints += _ints(content)
+            attributes[name] = ints
+    return Node(kind, inputs, outputs, attributes)
