@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..graph.topology import connected
 from ..ink.ink_names import InkLayer, ink_layers
 
 if TYPE_CHECKING:
@@ -32,6 +31,8 @@ def small_strokes(drawing: Drawing) -> Array:
     graph, most = drawing.graph, drawing.settings.small_parts
     if not most or graph.widths is None or not graph.branch_count:
         return small
+    from ..graph.topology import connected  # brings in OpenCV
+
     part = connected(len(graph.vertices), graph.ends)[graph.ends[:, 0]]  # of each branch
     owner = np.repeat(part, np.diff(graph.offsets))
     low = np.full((part.max() + 1, 2), np.inf)
