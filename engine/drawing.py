@@ -410,8 +410,12 @@ class Drawing:
 
     def ask_again(self) -> Drawing:
         """Route the junctions and corners that are not locked anew, given those that are."""
+        if self.pencil:  # there, each junction is judged for itself
+            free = np.flatnonzero(~self.routing.locked).tolist()
+            ways = {place: self.routing.alternatives[place][0].pairs for place in free}
+            return self._with_ways(ways, self.routing)
         graph = self.graph.scaled(1 / self.scale)
-        routing = route(graph, self.settings, self._decided, rough=self.pencil is not None)
+        routing = route(graph, self.settings, self._decided)
         return replace(self._with_partner(routing.partner), routing=routing)
 
     def ask_around(self, before: Drawing) -> Drawing:

@@ -33,6 +33,7 @@ from .scan import read_scan
 from .scan.registration import set_aside
 from .scan.resolution import dots_per_inch
 from .scan.screentone import without_screentone
+from .scan.show_through import without_show_through
 from .scan.wide_lines import WideLines, find_wide_lines
 from .settings import Settings
 from .values import Array, LineMaps, PlanarGraph, Pose, Routing, Scan
@@ -135,7 +136,7 @@ class _Trace:
             settings = self._settings
             with self._clock("scan"):
                 found = read_scan(self._source, settings, page=self._page, turn=self._turn)
-                found = set_aside(found, settings)
+                found = without_show_through(set_aside(found, settings), settings)
                 found = without_screentone(without_inks(found, settings), settings)
             self._made("scan", found)
         self._own["scan"] = found

@@ -188,6 +188,15 @@ class Settings:
         tip="Don't trace the printed lines of ruled and squared paper",
         off="trace the printed lines of ruled and squared paper too",
     )
+    show_through: bool = _switch(
+        True,
+        group=WHAT,
+        stage="scan",
+        label="Leave Out the Back",
+        tip="Don't trace what shows through from the back of the sheet, paler and softer",
+        off="trace what shows through from the back of the sheet too",
+        more="Kept, it comes on the layer of pencil",
+    )
     screentone: bool = _switch(
         True,
         group=WHAT,

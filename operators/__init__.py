@@ -3,6 +3,7 @@
 tracing         pictures become Grease Pencil objects
 sequences       numbered drawings become keyframes
 junctions       what is done to the junctions of a traced drawing
+pencil          lines and the pencil strokes that they were made of
 view            what is looked at and where it lies on the screen; `ui` draws it
 grease_pencil   the data layer: it alone touches strokes
 blend_file, blender_command   .blend files for the command line, which Blender runs as well
@@ -39,6 +40,8 @@ _VERBS = (
     "junctions.choose",
     "junctions.review",
     "junctions.drag_join",
+    "pencil.merge_lines",
+    "pencil.split_line",
 )
 
 

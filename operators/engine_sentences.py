@@ -32,6 +32,7 @@ SENTENCES = (
     "What lies beyond the sheet was left out: {0} of the picture.",
     "The sheet was not straightened: its four corners are not sure.",
     "The sheet was straightened: its corners were {0}° askew.",
+    "What shows through from the back was left out: {0} of the ink.",
     "Printed rules were left out.",
     "Left out as no part of the drawing: {0}.",
     "dark borders of the scan",

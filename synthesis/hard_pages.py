@@ -85,6 +85,30 @@ def ruled_sheet(rng: Rng, strokes: Strokes, size: int) -> HardPage:
     return HardPage(page, (rules > 0.05) & (drawn < 0.02), drawn > 0.4, kind)
 
 
+def both_sides(rng: Rng, strokes: Strokes, behind: Strokes, size: int) -> HardPage:
+    """A drawing on a sheet through which the drawing on its back shows, or pencil under it, or
+    nothing of either.
+
+    wanted: what shows through where nothing is drawn. other: the drawing, and its pencil.
+    """
+    kind = str(rng.choice(["back", "back", "pencil", "front"]))
+    drawn = _drawn(rng, strokes, str(rng.choice(_FINE[:4])), rng.uniform(2, 4.5), size)
+    medium = str(rng.choice(_FINE)) if kind == "back" else "pencil"
+    other = _drawn(rng, behind, medium, rng.uniform(2, 4.5), size)
+    if kind == "back":
+        other = cv2.GaussianBlur(other[:, ::-1], (0, 0), rng.uniform(1.8, 4))
+        other = other * rng.uniform(0.12, 0.4) / max(float(np.quantile(other, 0.995)), 0.1)
+    other = (
+        np.clip(other, 0, 1) * {"back": 1.0, "pencil": rng.uniform(0.3, 0.6), "front": 0.0}[kind]
+    )
+    page = _scanned(rng, 1 - (1 - drawn) * (1 - other), rng.uniform(0.8, 1.0))
+    pale = (other > 0.06) & (drawn < 0.02)
+    kept = drawn > 0.4
+    if kind == "pencil":
+        return HardPage(page, np.zeros_like(pale), kept | (pale & (other > 0.2)), kind)
+    return HardPage(page, pale, kept, kind)
+
+
 def _drawn(rng: Rng, strokes: Strokes, medium: str, pen: float, size: int) -> Array:
     """(size, size) ink of some strokes; a fine pen is no wider than its lines lie apart."""
     lines = [line.astype(np.float32) for line in strokes if len(line) > 1]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from itertools import pairwise
 
+import cv2
 import numpy as np
 
 from .line_art import Array, Rng, Strokes, resample
@@ -57,6 +58,39 @@ def pencilled(rng: Rng, lines: Strokes, hand: Hand) -> tuple[Strokes, Array]:
                 strokes.append(part)
                 press.append(1.0 if k == sure else rng.uniform(0.3, 0.85))
     return strokes, np.array(press)
+
+
+def keyed(rng: Rng, lines: Strokes, hand: Hand) -> tuple[Strokes, Array]:
+    """The strokes of an animator's keyframe, and how hard each is pressed: every line is said from
+    end to end, stroke after stroke, and some stretches of it again."""
+    strokes: Strokes = []
+    press: list[float] = []
+    for line in lines:
+        dense = resample(line, 2.0)
+        arc = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(dense, axis=0).T))])
+        at = -np.inf
+        while at < arc[-1]:
+            begin = max(at, 0.0)
+            stop = begin + hand.length * rng.uniform(0.5, 1.5)
+            stop = np.inf if arc[-1] - stop < 0.4 * hand.length else stop
+            spans = [(at, stop)]
+            for _ in range(rng.poisson(max(hand.strokes - 1, 0.0))):
+                a, b = np.sort(rng.uniform(begin, min(stop, arc[-1]), 2))
+                spans.append((a if rng.random() < 0.6 else at, b if rng.random() < 0.6 else stop))
+            for k, (a, b) in enumerate(spans):
+                part = _along(rng, dense, arc, a, b, hand, k == 0)
+                if part is not None:
+                    strokes.append(part)
+                    press.append(1.0 if k == 0 else rng.uniform(0.6, 1.0))
+            at = stop - hand.over * rng.uniform(-0.15, 2.0)
+    return strokes, np.array(press)
+
+
+def angular(lines: Strokes, tolerance: float) -> Strokes:
+    """Lines as somebody draws them who thinks in straight strokes, within so many px of them."""
+    curves = [line.astype(np.float32)[:, None] for line in lines]
+    straight = [cv2.approxPolyDP(curve, tolerance, False)[:, 0] for curve in curves]
+    return [one for one in straight if len(one) > 1]
 
 
 def _along(

@@ -52,7 +52,7 @@ def bridge_gaps(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> P
     fits &= sample(value, (tips[a] + tips[b]) / 2) < np.minimum(light[a], light[b])
     fits &= (gap < reach) & (gap < 2 * shorter + LIMITS.gap_least)
     a, b, cost = a[fits], b[fits], (gap + 2 * aside)[fits]
-    best = _mutual(a, b, cost, len(free))
+    best = mutual(a, b, cost, len(free))
     links = graph.half_vertex[free[np.stack([a[best], b[best]], -1)]]
     return bridged(graph, links, list(graph.vertices[links])) if len(links) else graph
 
@@ -66,6 +66,23 @@ def bridged(graph: PlanarGraph, links: Array, lines: Sequence[Array]) -> PlanarG
         points=np.concatenate([graph.points, *lines]).astype(np.float32),
         offsets=np.concatenate([graph.offsets, offsets]).astype(np.int32),
         ends=np.concatenate([graph.ends, links]).astype(np.int32),
+    )
+
+
+def linked(graph: PlanarGraph, links: Array) -> PlanarGraph:
+    """The graph with a straight branch between the vertices of each link, (K, 2); it has the
+    widths and the ink of what ends there."""
+    tip = np.zeros(len(graph.vertices), np.int64)
+    tip[graph.ends.ravel()] = np.stack([graph.offsets[:-1], graph.offsets[1:] - 1], 1).ravel()
+
+    def longer(values: Array | None) -> Array | None:
+        return None if values is None else np.concatenate([values, values[tip[links.ravel()]]])
+
+    return replace(
+        bridged(graph, links, list(graph.vertices[links])),
+        widths=longer(graph.widths),
+        strength=longer(graph.strength),
+        colors=longer(graph.colors),
     )
 
 
@@ -84,7 +101,7 @@ def _cross(a: Array, b: Array) -> Array:
     return np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
 
 
-def _mutual(a: Array, b: Array, cost: Array, count: int) -> Array:
+def mutual(a: Array, b: Array, cost: Array, count: int) -> Array:
     """Indices of the pairs that are the cheapest one for both of their ends."""
     least = np.full(count, np.inf)
     np.minimum.at(least, a, cost)

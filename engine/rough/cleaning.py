@@ -14,26 +14,27 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..graph.topology import lengths
-from ..routing import route
+from ..routing import Fixed, route
+from ..routing.geometric import tint_score
 from ..settings import Settings
 from ..values import Array, PlanarGraph, Routing
-from . import grouping
+from . import continuing, grouping
 from .beside import Rungs, rungs
+from .bridging import bridged
 from .consensus import consensus
 from .meant import meant_lines
 from .redrawn import Bundles
-from .sampled import Sampled
+from .sampled import Sampled, reach_of
 
 # A page is rough when so much of its length runs beside itself; or less, when lines often run on
-# beyond their ends, too. Held-out pages (training/rough): 22 of 27 rough ones have that, and 2 of
-# 12 clean ones.
+# beyond their ends, too. Held-out pages (training/rough): 22 of 31 rough ones
+# have that, and 5 of 60 clean ones.
 ROUGH, HARDLY = 0.1, 0.018  # share of the length
 OVERSHOT = 0.7  # loose ends that stick out of another line, in 100 pens of length
 _STICKS_OUT = (1.5, 8.0)  # pens; length of such an end
 _ONE = 0.5  # probability from which on two strokes mean one line
 _HATCHING = 0.05  # what knows hatching lets less than that pass on no page
 _OWN_WIDTH = 0.35  # quantile of the widths that is a single pencil stroke's: bundles are wider
-_REACH = (3.0, 4.0, 24.0)  # pens, and px more, and px at most, between strokes of one line
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,12 +67,6 @@ class Cleaned:
     graph: PlanarGraph
     routing: Routing
     said: Array
-
-
-def reach_of(pen: float) -> float:
-    """How far apart two strokes of one line may lie, px; pen: the width of one, px."""
-    times, more, most = _REACH
-    return min(times * pen + more, most)
 
 
 def beside_each_other(graph: PlanarGraph, partner: Array, shape: tuple[int, int]) -> Bundled:
@@ -148,6 +143,11 @@ def cleaned(found: Bundled, settings: Settings, shape: tuple[int, int]) -> Clean
         shape: (height, width) of the page, px.
     """
     bundles, graph = redrawn(found, settings, shape)
-    graph = meant_lines(graph, bundles, found.pen)
-    routing = route(graph, settings, rough=True)
+    graph = bridged(meant_lines(graph, bundles, found.pen), bundles, found.pen)
+
+    def by_bundles(graph: PlanarGraph, pairs: Array, fixed: Fixed) -> Array:
+        return continuing.score(graph, pairs, bundles) + tint_score(graph, pairs)
+
+    geometric = settings.router == "geometric"
+    routing = route(graph, settings, scorer=None if geometric else by_bundles)
     return Cleaned(graph, routing, bundles.said(graph))

@@ -11,22 +11,25 @@ from dataclasses import replace
 
 import numpy as np
 
+from ..arrays.ragged import end_to_end, owners, ranges
 from ..graph.topology import lengths
 from ..routing.features import FEATURES as OF_PAIRS
 from ..routing.features import pair_features
 from ..values import Array, PlanarGraph
 from .grouping import log_odds
+from .redrawn import SAID, Bundles, nearest_of, pixels_of
 
 _SCALES = (1.0, 2.0, 4.0)  # times the pen
-FEATURES = len(_SCALES) * len(OF_PAIRS) + 7  # of a pair
+FEATURES = len(_SCALES) * len(OF_PAIRS) + 7 + 5  # of a pair
+_FROM, _TO = 2.0, 16.0  # px from a junction between which a pencil stroke is part of a half-branch
 
 
-def score(graph: PlanarGraph, pairs: Array) -> Array:
+def score(graph: PlanarGraph, pairs: Array, bundles: Bundles) -> Array:
     """(K,) float32 log-odds of joining each of the (K, 2) pairs against ending both."""
-    return log_odds(features(graph, pairs), "goes_on").astype(np.float32)
+    return log_odds(features(graph, pairs, bundles), "goes_on").astype(np.float32)
 
 
-def features(graph: PlanarGraph, pairs: Array) -> Array:
+def features(graph: PlanarGraph, pairs: Array, bundles: Bundles) -> Array:
     """(K, F) float64: what tells of two half-branches whether they are one line."""
     assert graph.widths is not None, "a redrawn graph is measured"
     scaled = [
@@ -46,7 +49,53 @@ def features(graph: PlanarGraph, pairs: Array) -> Array:
         turn <= np.minimum(rival_a, rival_b),
         (a >> 1) == (b >> 1),
     ]
-    return np.column_stack([*scaled, *extra])
+    return np.column_stack([*scaled, *extra, *_drawn_through(graph, pairs, bundles)])
+
+
+def _drawn_through(graph: PlanarGraph, pairs: Array, bundles: Bundles) -> list[Array]:
+    """How many pencil strokes run through both half-branches of each pair, (K,) each; and how many
+    through either, and through one of them into any other."""
+    half, stroke = _strokes_at(graph, bundles)
+    strokes = int(stroke.max(initial=0)) + 1
+    held = np.unique(half * strokes + stroke)
+    half, stroke = np.divmod(held, strokes)
+    first = np.searchsorted(half, np.arange(2 * graph.branch_count + 1))
+    count = np.diff(first)
+    vertex = graph.half_vertex[half]
+    # A stroke that is on several half-branches of a vertex runs through it.
+    passing = np.unique(vertex * strokes + stroke, return_inverse=True, return_counts=True)
+    through = np.bincount(half, passing[2][passing[1].ravel()] > 1, 2 * graph.branch_count)
+    a, b = pairs.T
+    row = np.repeat(np.arange(len(pairs)), count[a])
+    here = ranges(first[a], count[a])
+    both = np.bincount(row, np.isin(b[row] * strokes + stroke[here], held), len(pairs))
+    fewer, more = np.minimum(count[a], count[b]), np.maximum(count[a], count[b])
+    return [
+        both,
+        both / np.maximum(fewer, 1),
+        both / np.maximum(more, 1),
+        np.maximum(through[a], through[b]) - both,
+        fewer,
+    ]
+
+
+def _strokes_at(graph: PlanarGraph, bundles: Bundles) -> tuple[Array, Array]:
+    """The half-branch and the pencil stroke of every sample of pencil not far from a junction."""
+    nearest, away = nearest_of(graph.points, bundles.shape)
+    branch = owners(graph.offsets)
+    way = end_to_end(graph.points, graph.offsets)
+    sides = way - way[graph.offsets[:-1]][branch], way[graph.offsets[1:] - 1][branch] - way
+    place = pixels_of(bundles.moved, bundles.shape)
+    point = nearest[place][away[place] <= SAID]
+    stroke = bundles.strokes.stroke[away[place] <= SAID]
+    found = []
+    for side, far in enumerate(sides):
+        near = (far[point] >= np.minimum(_FROM, 0.3 * (sides[0] + sides[1])[point])) & (
+            far[point] <= _TO
+        )
+        found.append((2 * branch[point[near]] + side, stroke[near]))
+    half, stroke = (np.concatenate(parts) for parts in zip(*found, strict=True))
+    return half.astype(np.int64), stroke.astype(np.int64)
 
 
 def _rivals(pairs: Array, turn: Array, halves: int) -> tuple[Array, Array]:

@@ -22,7 +22,7 @@ from .sampled import Sampled
 _LINE_BLUR = 1.1  # px; two lines nearer than about twice that are one ridge
 _BRIGHT = 2.2  # times as bright, so that a thin line is full at its crest
 _PRESSED = (0.6, 1.5)  # times the pen's width, for the lightest and the hardest pressure
-_SAID = 2.5  # px from a line at most, where a moved stroke says it ...
+SAID = 2.5  # px from a line at most, where a moved stroke says it ...
 _SAID_FOR = 3  # ... for as many samples at least
 _AROUND = 7  # px; side of the square in which strokes are counted
 
@@ -43,7 +43,7 @@ class Bundles:
 
     @classmethod
     def of(cls, strokes: Sampled, moved: Array, shape: tuple[int, int]) -> Bundles:
-        row, column = _pixels(moved, shape)
+        row, column = pixels_of(moved, shape)
         step = np.zeros(shape, np.float32)
         ahead = np.hypot(*(moved[strokes.ahead] - moved).T)
         back = np.hypot(*(moved[strokes.back] - moved).T)
@@ -52,9 +52,14 @@ class Bundles:
         nearest, away = nearest_of(moved, shape)
         return cls(strokes, moved, count, nearest, away)
 
+    @property
+    def shape(self) -> tuple[int, int]:
+        """(height, width) of the page, px."""
+        return self.count.shape[0], self.count.shape[1]
+
     def at(self, points: Array) -> Array:
         """The sample nearest to each of (P, 2) points."""
-        return self.nearest[_pixels(points, self.nearest.shape)]
+        return self.nearest[pixels_of(points, self.nearest.shape)]
 
     def ridge(self) -> Array:
         """(H, W) float32 the centerline map of the moved strokes."""
@@ -87,16 +92,16 @@ class Bundles:
     def _darkest(self, points: Array) -> Array:
         """(P,) strength of the darkest pencil stroke of the bundle at some points."""
         image: Array = np.zeros(self.count.shape, np.float32)
-        np.maximum.at(image, _pixels(self.moved, image.shape), self.strokes.strength)
+        np.maximum.at(image, pixels_of(self.moved, image.shape), self.strokes.strength)
         image = cv2.dilate(image, np.ones((5, 5), np.uint8))
-        return image[_pixels(points, image.shape)]
+        return image[pixels_of(points, image.shape)]
 
     def said(self, graph: PlanarGraph) -> Array:
         """(K, 2) int32: which pencil strokes say which branches of a graph, both ascending."""
         branch = owners(graph.offsets)
-        nearest, away = nearest_of(graph.points, (self.count.shape[0], self.count.shape[1]))
-        place = _pixels(self.moved, self.count.shape)
-        near = away[place] <= _SAID
+        nearest, away = nearest_of(graph.points, self.shape)
+        place = pixels_of(self.moved, self.count.shape)
+        near = away[place] <= SAID
         pairs = np.stack([self.strokes.stroke[near], branch[nearest[place][near]]], 1)
         found, count = np.unique(pairs, axis=0, return_counts=True)
         return found[count >= _SAID_FOR].astype(np.int32)
@@ -105,7 +110,7 @@ class Bundles:
 def nearest_of(points: Array, shape: tuple[int, int]) -> tuple[Array, Array]:
     """(H, W) int32 number of the nearest of (N, 2) points, N >= 1, and (H, W) px to its pixel."""
     far = np.full(shape, 255, np.uint8)
-    place = _pixels(points, shape)
+    place = pixels_of(points, shape)
     far[place] = 0
     away, label = cv2.distanceTransformWithLabels(
         far, cv2.DIST_L2, cv2.DIST_MASK_5, labelType=cv2.DIST_LABEL_PIXEL
@@ -115,7 +120,7 @@ def nearest_of(points: Array, shape: tuple[int, int]) -> tuple[Array, Array]:
     return number[label], away
 
 
-def _pixels(points: Array, shape: tuple[int, ...]) -> tuple[Array, Array]:
+def pixels_of(points: Array, shape: tuple[int, ...]) -> tuple[Array, Array]:
     """Rows and columns of the pixels that points lie in."""
     column = np.clip(points[:, 0], 0, shape[1] - 1).astype(int)
     return np.clip(points[:, 1], 0, shape[0] - 1).astype(int), column

@@ -11,6 +11,7 @@ from ..strokes.walk import walk
 from ..values import Array, PlanarGraph
 
 SPACING = 2.0  # px at most between two samples of a branch
+_REACH = (3.0, 4.0, 24.0)  # pens, and px more, and px at most, between strokes of one line
 _AHEAD = 3  # samples to either side that tell a direction
 
 
@@ -78,6 +79,12 @@ class Sampled:
             values(graph.widths),
             _colors(graph, at, axis),
         )
+
+
+def reach_of(pen: float) -> float:
+    """How far apart two strokes of one line may lie, px; pen: the width of one, px."""
+    times, more, most = _REACH
+    return min(times * pen + more, most)
 
 
 def _colors(graph: PlanarGraph, at: Array, axis: Array) -> Array | None:

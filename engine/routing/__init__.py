@@ -28,14 +28,18 @@ Scorer = Callable[[PlanarGraph, Array, Fixed], Array]
 
 
 def route(
-    graph: PlanarGraph, settings: Settings, fixed: Fixed | None = None, *, rough: bool = False
+    graph: PlanarGraph,
+    settings: Settings,
+    fixed: Fixed | None = None,
+    *,
+    scorer: Scorer | None = None,
 ) -> Routing:
     """Pair the half-branches of every junction and every corner.
 
     Args:
         fixed: number of a place -> the pairs that the user has decided; they are kept and locked,
             and the scorers may learn from them.
-        rough: the lines are those of a rough drawing, see `rough.continuing`.
+        scorer: of the pairs at junctions; None = the one that the settings ask for.
 
     Raises:
         InvoluteError: fixed pairs that are not disjoint pairs of half-branches of their junction.
@@ -44,7 +48,9 @@ def route(
     pairs = candidate_pairs(graph)
     turns = lifting.score(graph, fixed)
     crossing = len(pairs) - len(turns)
-    score = np.concatenate([_at_junctions(graph, pairs[:crossing], fixed, settings, rough), turns])
+    score = np.concatenate(
+        [_at_junctions(graph, pairs[:crossing], fixed, scorer or scorer_for(settings)), turns]
+    )
     alternatives = ranked_alternatives(graph, score, fixed)
 
     best = [fixed.get(j, ways[0].pairs) for j, ways in enumerate(alternatives)]
@@ -105,7 +111,7 @@ def taught(
         return routing.pair_score, np.zeros(0, np.int64)
     pairs = part.number[routing.pairs[rows]]
     old, new = (
-        _at_junctions(part.graph, pairs, part.fixed(graph, fixed), settings)
+        _at_junctions(part.graph, pairs, part.fixed(graph, fixed), scorer_for(settings))
         for fixed in (before, after)
     )
     score = routing.pair_score.copy()
@@ -136,9 +142,7 @@ def with_corners(routing: Routing, graph: PlanarGraph) -> Routing:
     )
 
 
-def _at_junctions(
-    graph: PlanarGraph, pairs: Array, fixed: Fixed, settings: Settings, rough: bool = False
-) -> Array:
+def _at_junctions(graph: PlanarGraph, pairs: Array, fixed: Fixed, scorer: Scorer) -> Array:
     """(K,) scores of the pairs at junctions, which see their branches whole, corners and all."""
     if not len(pairs):
         return np.zeros(0, np.float32)
@@ -150,10 +154,10 @@ def _at_junctions(
         for place, ways in fixed.items()
         if place < len(graph.junctions)
     }
-    return scorer_for(settings, rough)(whole, number[pairs], decided)
+    return scorer(whole, number[pairs], decided)
 
 
-def scorer_for(settings: Settings, rough: bool = False) -> Scorer:
+def scorer_for(settings: Settings) -> Scorer:
     """The scorer that the settings ask for; "auto" = the network when its weights are there."""
     from . import geometric
 
@@ -162,8 +166,6 @@ def scorer_for(settings: Settings, rough: bool = False) -> Scorer:
 
     if settings.router == "geometric":
         return by_geometry
-    if rough:
-        return _by_bundles
     from . import network
 
     def by_network(graph: PlanarGraph, pairs: Array, fixed: Fixed) -> Array:
@@ -174,13 +176,6 @@ def scorer_for(settings: Settings, rough: bool = False) -> Scorer:
     if settings.router == "network" or network.available():
         return by_network
     return by_geometry
-
-
-def _by_bundles(graph: PlanarGraph, pairs: Array, fixed: Fixed) -> Array:
-    from ..rough import continuing
-    from . import geometric
-
-    return continuing.score(graph, pairs) + geometric.tint_score(graph, pairs)
 
 
 def around(halves: Array, routing: Routing, pairs: set[Pair]) -> tuple[Pair, ...]:

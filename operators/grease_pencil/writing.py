@@ -22,7 +22,7 @@ Array = np.ndarray
 FILL_LAYER = "Solids"
 REGION_LAYER = "Regions"
 PENCIL_LAYER = "Pencil"
-_BELOW = (PENCIL_LAYER, FILL_LAYER, REGION_LAYER)  # the last lies lowest
+BELOW = (PENCIL_LAYER, FILL_LAYER, REGION_LAYER)  # the last lies lowest
 _DIMMED = 0.3  # opacity of the layer of pencil strokes
 _NOT_RENDERED = "(not rendered)"  # a view layer that nobody has
 _FILLS_BY_STROKE = (5, 1, 0)  # since then strokes say whether they are filled, not materials
@@ -92,10 +92,10 @@ def _keyframe(data: bpy.types.ID, name: str, frame: int, clear: bool = True) -> 
     """The cel of a layer's keyframe, if asked without traced strokes; made when it is missing."""
     layer = data.layers.get(name)
     if layer is None:
-        layer = data.layers.new(name, set_active=name not in _BELOW)
+        layer = data.layers.new(name, set_active=name not in BELOW)
         layer.use_lights = False
-        if name in _BELOW:
-            for below in _BELOW:
+        if name in BELOW:
+            for below in BELOW:
                 if below in data.layers:
                     data.layers.move_bottom(data.layers[below])
     key = next((k for k in layer.frames if k.frame_number == frame), None)

@@ -68,7 +68,14 @@ def texts(node: ast.expr) -> Iterator[str]:
 # The modules of the engine whose sentences are seen in Blender, and those of them for programs.
 ENGINE = (
     *("fidelity", "drawing", "vector_page", "scan/preparing", "scan/registration"),
-    *("scan/screentone", "scan/image_file", "scan/picture", "scan/polarity", "scan/movie"),
+    *(
+        "scan/screentone",
+        "scan/show_through",
+        "scan/image_file",
+        "scan/picture",
+        "scan/polarity",
+        "scan/movie",
+    ),
     *("scan/psd", "centerline/backends", "routing/network", "sequence/frames"),
     "formats/svg_lines",
 )

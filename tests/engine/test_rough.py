@@ -6,6 +6,7 @@ import cv2
 import numpy as np
 import pytest
 from involute.engine import Drawing, Settings, vectorize
+from involute.engine.rough.merging import one_line
 
 SIZE = 420
 AUTO = Settings(drawing="auto")
@@ -119,3 +120,35 @@ def test_lines_can_be_rerouted(rough):
 def test_a_blank_page_is_no_rough_drawing():
     blank = np.full((200, 200), 255, np.uint8)
     assert vectorize(blank, Settings(drawing="rough")).strokes == ()
+
+
+@pytest.mark.parametrize(
+    ("parts", "closed"),
+    [
+        ([(0, 0.6, -2), (0.4, 1, 2), (0.2, 0.8, 0)], False),  # over each other
+        ([(0, 0.45, 0), (0.55, 1, 1)], False),  # end to end, with a gap
+        ([(0, 1, 0)], False),
+        ([(0, 1.5, 0), (1.4, 2.9, 1)], True),  # all around, 2.2 times 2.86 radians
+    ],
+)
+def test_strokes_that_the_artist_merges_become_one_line(parts, closed):
+    strokes = [curve(aside, start, stop) for start, stop, aside in parts]
+    strokes[0] = strokes[0][::-1]
+    points, widths, is_closed = one_line([(s, np.full(len(s), 3.0)) for s in strokes])
+    assert is_closed == closed
+    assert np.abs(np.hypot(*(points - [210, 110]).T) - 160).max() < 3.5
+    whole = 2 * np.pi if closed else 2.2
+    assert abs(length(points) - whole * 160) < 0.04 * whole * 160
+    assert len(widths) == len(points)
+    assert (widths == 3.0).all()
+
+
+def test_lines_go_on_over_a_gap():
+    """Two bundles that face each other are one line, the straight way between them its middle."""
+    x = np.linspace(30, 390, 90)
+    bars = [np.stack([x, np.full(90, 200.0 + y)], 1) for y in (-2.0, 1.0, 3.0)]
+    left = [bar[:43] for bar in bars]
+    right = [bar[45:] for bar in bars]
+    drawing = vectorize(page([*left, *right, *sketched()]), Settings(drawing="rough"))
+    across = [s for s in drawing.strokes if abs(np.median(s.points[:, 1]) - 200) < 6]
+    assert max(length(s.points) for s in across) > 330

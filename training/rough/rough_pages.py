@@ -7,6 +7,7 @@ and clean pages, of which nothing is to be bundled, hatching and fur above all.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
 
@@ -25,7 +26,7 @@ from involute.synthesis import pencilling
 from involute.synthesis.composed_pages import Library
 from involute.synthesis.held_out_pages import endless
 from involute.synthesis.media import MEDIA, draw, line_spacing, sample
-from involute.synthesis.pencilling import Hand, construction, in_pieces, pencilled
+from involute.synthesis.pencilling import Hand, angular, construction, in_pieces, keyed, pencilled
 from involute.synthesis.sheet_of_paper import paper, scan, shadow
 
 Array = np.ndarray
@@ -43,6 +44,8 @@ EACH = (2, 4, 7)  # strokes a line of held-out sketches, in turn
 _SIZE = (0.4, 0.8)  # of a page of the benchmark's size: smaller ones are traced sooner
 _MARGIN, _LEAST = 24, 300  # px
 _DENSEST = 8.0  # px between the lines of a page; closer ones can't be drawn roughly
+_ANGULAR = 0.6  # share of the keyframes whose lines are straight from corner to corner
+_LIFTED = 22.0  # degrees; corners of keyframes at which the pencil may be lifted
 _HATCHED = 420  # px; side of a page of hatching
 _CLEAN = ("technical pen", "ink", "pencil", "soft pencil", "marker", "ballpoint", "fineliner")
 
@@ -88,20 +91,19 @@ class RoughPage:
 
 
 def gathered(
-    folder: Path, pages: int, library: Library, seed: int = 1, *, each: bool = False
+    folder: Path,
+    pages: int,
+    make: Callable[[np.random.Generator, int], RoughPage | None],
+    seed: int = 1,
 ) -> list[RoughPage]:
-    """So many pages from a folder, as far as it goes, and made.
-
-    Args:
-        each: sketches with 2, 4 and 7 strokes a line in turn, to judge by.
-    """
+    """So many pages from a folder, as far as it goes, and made: by their numbers."""
     folder.mkdir(parents=True, exist_ok=True)
     cv2.setNumThreads(1)
     for number in range(pages):
         path = folder / f"{number:05d}.npz"
         if path.exists() or path.with_suffix(".none").exists():
             continue
-        page = rough_page(np.random.default_rng((seed, number)), library, number, each=each)
+        page = make(np.random.default_rng((seed, number)), number)
         if page is None:
             path.with_suffix(".none").touch()
         else:
@@ -113,7 +115,11 @@ def gathered(
 def rough_page(
     rng: np.random.Generator, library: Library, number: int, *, each: bool = False
 ) -> RoughPage | None:
-    """One random page; None when its lines are too dense, or nothing was traced."""
+    """One random page; None when its lines are too dense, or nothing was traced.
+
+    Args:
+        each: sketches with 2, 4 and 7 strokes a line in turn, to judge by.
+    """
     kind = KINDS[number % len(KINDS)]
     if kind == "hatched":
         return hatched(rng)
@@ -122,6 +128,8 @@ def rough_page(
     spacing = line_spacing(sample(lines, size), size)
     if kind != "clean" and spacing < _DENSEST:
         return None
+    if kind == "keyframe" and rng.random() < _ANGULAR:
+        lines = angular(lines, rng.uniform(1.0, 3.5))
     hand = None
     if kind != "clean":
         pen = float(np.exp(rng.uniform(np.log(1.2), np.log(3.3))))
@@ -203,10 +211,10 @@ def _contours(rng: np.random.Generator, pen: float) -> list[Array]:
 
 def _keyframing(rng: np.random.Generator, pen: float) -> Hand:
     """The hand of an animator: sure, nearly single strokes that run on beyond their ends."""
-    spread = pen * rng.uniform(0.15, 0.8)
-    length = float(np.exp(rng.uniform(np.log(50), np.log(200))))
+    spread = pen * rng.uniform(0.15, 1.2)
+    length = float(np.exp(rng.uniform(np.log(50), np.log(300))))
     return Hand(
-        rng.uniform(1.2, 3.5), spread, spread * rng.uniform(0.2, 1), length, pen * rng.uniform(1, 4)
+        rng.uniform(1, 2.2), spread, spread * rng.uniform(0.2, 1), length, pen * rng.uniform(1, 5)
     )
 
 
@@ -215,8 +223,9 @@ def _sketched(
 ) -> Array:
     medium = MEDIA[str(rng.choice(pencilling.MEDIA))]
     if sure:
-        lines = in_pieces(rng, lines, rng.uniform(0.3, 1))
-    pencil, press = pencilled(rng, lines, hand)
+        pencil, press = keyed(rng, in_pieces(rng, lines, rng.uniform(0.3, 1), _LIFTED), hand)
+    else:
+        pencil, press = pencilled(rng, lines, hand)
     ink: Array = np.zeros((size, size), np.float32)
     light = construction(rng, size) if rng.random() < 0.6 else []
     if light:

@@ -1,10 +1,11 @@
 """Learn how many pencil strokes become one line, for `engine/rough`.
 
-`python -m training run rough --data DIR --run RUN --pages 170` draws and traces pages
-(`rough_pages`; RUN/train and RUN/held_out, started again it goes on) and trains four small
+`python -m training run rough --data DIR --run RUN --pages 280` draws and traces pages
+(`rough_pages`; RUN/train and RUN/held_out, started again it goes on) and trains five small
 networks, one on what the other leaves: which strokes mean one line (on any page, and on rough
-ones), which redrawn lines are meant, and which go on in which. It writes engine/weights/rough.npz;
-the held-out pages choose when to stop. The figures go to RUN/log.json.
+ones), which redrawn lines are meant, which go on over gaps, and which in which where they meet. It
+writes engine/weights/rough.npz; the held-out pages choose when to stop. The figures go to
+RUN/log.json.
 """
 
 from __future__ import annotations
@@ -18,7 +19,8 @@ from pathlib import Path
 import numpy as np
 import torch
 from involute.engine.graph.topology import join, select
-from involute.engine.rough import cleaning, continuing, grouping, meant
+from involute.engine.rough import bridging, cleaning, continuing, grouping, meant, sampled
+from involute.engine.rough.redrawn import Bundles
 from involute.engine.routing.candidates import candidate_pairs
 from involute.engine.settings import Settings
 from involute.engine.values import PlanarGraph
@@ -28,16 +30,23 @@ from torch import nn
 from .. import digests, lineage
 from ..routing import labels
 from . import true_lines
-from .rough_pages import RoughPage, gathered
+from .rough_pages import RoughPage, gathered, rough_page
 from .true_lines import TrueLines
 
 Array = np.ndarray
 Rows = tuple[Array, Array]
 Net = dict[str, Array]
 
-_HIDDEN = {"tells": (32, 16), "same": (32, 16), "meant": (32, 16), "goes_on": (48, 24)}
+_HIDDEN = {
+    "tells": (32, 16),
+    "same": (32, 16),
+    "meant": (32, 16),
+    "bridges": (24, 12),
+    "goes_on": (48, 24),
+}
 _BATCH, _NOISE, _DROPOUT = 1024, 0.1, 0.2
 _EVERY = 75  # steps between two looks at the held-out pages
+_LEFT = 0.35  # share of the false branches that a first look leaves
 _NEAR = (3.5, 1.5)  # px, and times the spread, that a redrawn line may lie off the stroke it is
 
 
@@ -46,8 +55,8 @@ def main(argv: Sequence[str] | None = None) -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--data", type=Path, required=True, help="folder of SOURCE.npz drawings")
     parser.add_argument("--run", type=Path, required=True)
-    parser.add_argument("--pages", type=int, default=170, help="and a fifth of that, held out")
-    parser.add_argument("--steps", type=int, default=900)
+    parser.add_argument("--pages", type=int, default=280, help="and a fifth of that, held out")
+    parser.add_argument("--steps", type=int, default=1500)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--out", type=Path, default=grouping.WEIGHTS)
     args = parser.parse_args(argv)
@@ -55,11 +64,8 @@ def main(argv: Sequence[str] | None = None) -> None:
     torch.manual_seed(args.seed)
     torch.set_num_threads(1)
     parts = [
-        gathered(args.run / name, pages, Library.load(args.data, held), args.seed, each=held)
-        for name, pages, held in (
-            ("train", args.pages, False),
-            ("held_out", args.pages // 5, True),
-        )
+        _pages(args.run, *part, args.data, args.seed)
+        for part in (("train", args.pages, False), ("held_out", args.pages // 5, True))
     ]
     net, figures = learnt(*parts, args.steps)
     print(json.dumps(figures, indent=1))
@@ -68,10 +74,19 @@ def main(argv: Sequence[str] | None = None) -> None:
     digests.note(args.out, args.run)
 
 
+def _pages(run: Path, name: str, pages: int, held: bool, data: Path, seed: int) -> list[RoughPage]:
+    library = Library.load(data, held)
+
+    def make(rng: np.random.Generator, number: int) -> RoughPage | None:
+        return rough_page(rng, library, number, each=held)
+
+    return gathered(run / name, pages, make, seed)
+
+
 def learnt(
     pages: list[RoughPage], held: list[RoughPage], steps: int
 ) -> tuple[Net, dict[str, object]]:
-    """The weights of all three networks, and figures on the held-out pages."""
+    """The weights of all networks, and figures on the held-out pages."""
     net: Net = {}
     figures: dict[str, object] = {"pages": len(pages), "held-out pages": len(held)}
 
@@ -81,14 +96,14 @@ def learnt(
         figures[name] = figure
         print(name, figure, flush=True)
 
-    learn("tells", *([stretches(page) for page in part] for part in (pages, held)))
+    learn("tells", *([stretches(page) for page in some] for some in (pages, held)))
     # On a page that is known to be rough, more means one line than anywhere.
-    pages, held = ([page for page in part if page.spread > 0] for part in (pages, held))
-    learn("same", *([stretches(page) for page in part] for part in (pages, held)))
+    pages, held = ([page for page in some if page.spread > 0] for some in (pages, held))
+    learn("same", *([stretches(page) for page in some] for some in (pages, held)))
     wide = {k: v.astype(np.float64) for k, v in net.items()}
-    redrawn = [[redrawn_rows(page, wide) for page in part] for part in (pages, held)]
-    learn("meant", *([one[0] for one in part] for part in redrawn))
-    learn("goes_on", *([one[1] for one in part] for part in redrawn))
+    redrawn = [[redrawn_rows(page, wide) for page in some] for some in (pages, held)]
+    for number, name in enumerate(("meant", "bridges", "goes_on")):
+        learn(name, *([one[number] for one in some] for some in redrawn))
     return net, figures
 
 
@@ -100,30 +115,35 @@ def stretches(page: RoughPage) -> Rows:
     ink = page.ink.astype(np.float32) / 255
     rows = grouping.features(found.strokes, found.rungs, ink, found.pen)
     true = TrueLines.of(page.lines)
-    reach = cleaning.reach_of(found.pen)
+    reach = sampled.reach_of(found.pen)
     label = true_lines.one_line(found.strokes, found.rungs, true, page.spread, reach)
     known = label != true_lines.UNKNOWN
     return rows[known], label[known]
 
 
-def redrawn_rows(page: RoughPage, net: Net) -> tuple[Rows, Rows]:
-    """Features and labels of the branches that are redrawn, and of the pairs of those meant."""
+def redrawn_rows(page: RoughPage, net: Net) -> tuple[Rows, Rows, Rows]:
+    """Features and labels of the branches that are redrawn, of the loose ends of those meant, and
+    of their pairs where gaps are closed."""
     ink = page.ink.astype(np.float32) / 255
     found = cleaning.bundled(page.graph, page.partner, ink, net)
     bundles, graph = cleaning.redrawn(found, Settings(), page.ink.shape)
     true = TrueLines.of(page.lines)
     branches: list[Rows] = [_none(meant.FEATURES)]
-    for _ in range(2):  # as they are, and with what is left when the false ones are gone
+    rng = np.random.default_rng(0)
+    for left in (_LEFT, 0.0, 0.0):  # as they are, with some false ones, and without
         if graph.branch_count < 2:
             break
         label = true_lines.meant(graph, true, page.spread)
         branches.append((meant.features(graph, bundles, found.pen), label))
-        graph = join(select(graph, label))
-    rows, own = _stacked(branches)
-    return (rows, own), _pairs(graph, page)
+        graph = join(select(graph, label | (rng.random(len(label)) < left)))
+    halves = bridging.candidates(graph, found.pen)
+    gaps = true_lines.goes_on(graph, halves, true, page.spread)
+    ends = bridging.features(graph, halves, bundles, found.pen), gaps
+    graph = bridging.closed(graph, true_lines.nearest_first(graph, halves[gaps]))
+    return _stacked(branches), ends, _pairs(graph, page, bundles)
 
 
-def _pairs(graph: PlanarGraph, page: RoughPage) -> Rows:
+def _pairs(graph: PlanarGraph, page: RoughPage, bundles: Bundles) -> Rows:
     none = _none(continuing.FEATURES)
     if graph.branch_count < 2:
         return none
@@ -136,7 +156,7 @@ def _pairs(graph: PlanarGraph, page: RoughPage) -> Rows:
     owned = truth.stroke[graph.offsets[:-1]] >= 0
     known = owned[pairs >> 1].all(1)
     label = np.asarray(truth.partner)[pairs[:, 0]] == pairs[:, 1]
-    return continuing.features(graph, pairs)[known], label[known]
+    return continuing.features(graph, pairs, bundles)[known], label[known]
 
 
 def _none(features: int) -> Rows:

@@ -6,6 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from involute.engine.arrays.ragged import along, arc, owners
+from involute.engine.graph.gaps import looks
+from involute.engine.graph.topology import lengths
 from involute.engine.rough.beside import Rungs
 from involute.engine.rough.sampled import Sampled
 from involute.engine.values import PlanarGraph
@@ -20,6 +22,8 @@ _PENCIL_LEAST, _PENCIL_STRAYS = 3.5, 2.5  # the same of a pencil stroke
 _AGAIN = 3.0  # reaches along one line from which on it is another part of it
 _BIN = 3.0  # px of a true line that are claimed at a time
 _SECOND = 1.2  # px that a second line may lie farther off than the first, to be as true
+_NEW = 0.4  # share of a branch that must be the first to say its line ...
+_MEETING = 5  # ... without so many points at its ends
 UNKNOWN = -1
 
 
@@ -65,6 +69,12 @@ class TrueLines:
         away, near = away[row, best], near[row, best]
         return np.where(np.isfinite(away), self.line[near], -1), self.arc[near], away
 
+    def heading(self, line: Array, place: Array) -> Array:
+        """(P, 2) tangents of some lines at so many px along them."""
+        first = np.searchsorted(self.line, line)
+        last = np.searchsorted(self.line, line, "right") - 1
+        return self.tangent[np.clip(first + np.round(place).astype(int), 0, np.maximum(last, 0))]
+
 
 def one_line(strokes: Sampled, rungs: Rungs, true: TrueLines, spread: float, reach: float) -> Array:
     """(R,) int8 for each stretch: 1 = one line, 0 = not, UNKNOWN where neither is any line's."""
@@ -84,7 +94,8 @@ def one_line(strokes: Sampled, rungs: Rungs, true: TrueLines, spread: float, rea
 
 
 def meant(graph: PlanarGraph, true: TrueLines, spread: float) -> Array:
-    """(B,) bool: the branches that lie on a true line, nearer than any other that does."""
+    """(B,) bool: the branches that lie on a true line, nearer than any other that does; of two that
+    lie there for long, the longer one."""
     count = np.diff(graph.offsets)
     index = np.arange(len(graph.points))
     first, last = np.repeat(graph.offsets[:-1], count), np.repeat(graph.offsets[1:] - 1, count)
@@ -96,5 +107,42 @@ def meant(graph: PlanarGraph, true: TrueLines, spread: float) -> Array:
     _, of = np.unique(claim, return_inverse=True)
     nearest = np.full(int(of.max()) + 1, np.inf)
     np.minimum.at(nearest, of, away)
-    good = (line >= 0) & (away <= nearest[of] + _SECOND)
-    return np.bincount(owners(graph.offsets), good) > 0.5 * count
+    best = (line >= 0) & (away <= nearest[of] + _SECOND)
+    near = np.bincount(owners(graph.offsets), best, graph.branch_count) > 0.5 * count
+    good = np.zeros(graph.branch_count, bool)
+    taken: set[int] = set()
+    for branch in np.argsort(-lengths(graph), kind="stable").tolist():
+        said = claim[graph.offsets[branch] : graph.offsets[branch + 1]]
+        # Where it meets others, they say the same.
+        inner = said[_MEETING:-_MEETING] if len(said) > 3 * _MEETING else said[:0]
+        new = [c not in taken for c in inner[inner >= 0].tolist()]
+        if near[branch] and (not new or np.mean(new) > _NEW):
+            good[branch] = True
+            taken.update(said[said >= 0].tolist())
+    return good
+
+
+def goes_on(graph: PlanarGraph, halves: Array, true: TrueLines, spread: float) -> Array:
+    """(K,) bool: the pairs of half-branches, (K, 2), between whose loose ends a true line runs."""
+    tips, outward = looks(graph, halves.ravel())
+    reach = max(_PENCIL_LEAST, _STRAYS * spread)
+    line, place, _ = true.owner(tips, outward, reach)
+    forward = (true.heading(line, place) * outward).sum(1) > 0
+    gap = np.hypot(*(tips[::2] - tips[1::2]).T)
+    step = (place[1::2] - place[::2]) * np.where(forward[::2], 1, -1)
+    whole = true.length[line[::2]]
+    step = np.where(np.isfinite(whole) & (step < -0.5 * whole), step + whole, step)
+    one = (line[::2] == line[1::2]) & (line[::2] >= 0) & (forward[::2] != forward[1::2])
+    return one & (step > -reach) & (step < 1.5 * gap + reach)
+
+
+def nearest_first(graph: PlanarGraph, halves: Array) -> Array:
+    """Of some pairs of half-branches, (K, 2), as many as have no half-branch in common."""
+    gap = graph.vertices[graph.half_vertex[halves]]
+    used: set[int] = set()
+    kept = []
+    for row in np.argsort(np.hypot(*(gap[:, 0] - gap[:, 1]).T), kind="stable").tolist():
+        if used.isdisjoint(halves[row].tolist()):
+            used.update(halves[row].tolist())
+            kept.append(row)
+    return halves[kept]

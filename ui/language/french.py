@@ -3,6 +3,22 @@
 from __future__ import annotations
 
 TEXTS = {
+    # pencil and its lines
+    "Merge to One Line": "Fusionner en une ligne",
+    "Make one line of the selected strokes, in the middle of them; pencil strokes stay": (
+        "Faire une seule ligne des traits sélectionnés, en leur milieu ; "
+        "les traits de crayon restent"
+    ),
+    "Split into Pencil Strokes": "Séparer en traits de crayon",
+    "Put the pencil strokes that say a line in its place, for all selected lines": (
+        "Remplacer chaque ligne sélectionnée par les traits de crayon dont elle est faite"
+    ),
+    "Select two or more strokes that are one line.": (
+        "Sélectionnez au moins deux traits qui forment une ligne."
+    ),
+    "Select lines that were made of pencil strokes.": (
+        "Sélectionnez des lignes faites de traits de crayon."
+    ),
     "Trace Drawing": "Vectoriser un dessin",
     "Turn a scanned drawing into Grease Pencil strokes that run straight through junctions": (
         "Transformer un dessin numérisé en traits de crayon gras qui traversent les jonctions "
@@ -159,6 +175,10 @@ TEXTS = {
     "Straighten Sheet": "Redresser la feuille",
     "Take the perspective out of a photographed sheet, as seen from straight above": (
         "Supprimer la perspective d'une feuille photographiée, comme vue d'en haut"
+    ),
+    "Leave Out the Back": "Omettre le verso",
+    "Don't trace what shows through from the back of the sheet, paler and softer": (
+        "Ne pas tracer ce qui transparaît du verso de la feuille, plus pâle et plus flou"
     ),
     "Lines wider than this, in pixels of the picture, are solid areas; 0 finds out from the pen": (
         "Les lignes plus larges, en pixels de l'image, sont des aplats ; 0 le déduit de la plume"
@@ -757,6 +777,9 @@ TEXTS = {
     "{0} filled shapes were left out.": "{0} formes pleines ont été omises.",
     "What lies beyond the sheet was left out: {0} of the picture.": (
         "Ce qui dépasse de la feuille a été omis : {0} de l'image."
+    ),
+    "What shows through from the back was left out: {0} of the ink.": (
+        "Ce qui transparaît du verso a été omis : {0} de l'encre."
     ),
     "The sheet was not straightened: its four corners are not sure.": (
         "La feuille n'a pas été redressée : ses quatre coins ne sont pas sûrs."

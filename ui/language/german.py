@@ -3,6 +3,21 @@
 from __future__ import annotations
 
 TEXTS = {
+    # pencil and its lines
+    "Merge to One Line": "Zu einer Linie verbinden",
+    "Make one line of the selected strokes, in the middle of them; pencil strokes stay": (
+        "Aus den ausgewählten Strichen eine Linie in ihrer Mitte machen; Bleistiftstriche bleiben"
+    ),
+    "Split into Pencil Strokes": "In Bleistiftstriche zerlegen",
+    "Put the pencil strokes that say a line in its place, for all selected lines": (
+        "Alle ausgewählten Linien durch die Bleistiftstriche ersetzen, aus denen sie wurden"
+    ),
+    "Select two or more strokes that are one line.": (
+        "Wähle zwei oder mehr Striche aus, die eine Linie sind."
+    ),
+    "Select lines that were made of pencil strokes.": (
+        "Wähle Linien aus, die aus Bleistiftstrichen wurden."
+    ),
     # tracing
     "Trace Drawing": "Zeichnung nachziehen",
     "Turn a scanned drawing into Grease Pencil strokes that run straight through junctions": (
@@ -169,6 +184,10 @@ TEXTS = {
     "Straighten Sheet": "Blatt entzerren",
     "Take the perspective out of a photographed sheet, as seen from straight above": (
         "Ein fotografiertes Blatt entzerren, als sähe man gerade von oben darauf"
+    ),
+    "Leave Out the Back": "Rückseite weglassen",
+    "Don't trace what shows through from the back of the sheet, paler and softer": (
+        "Nicht nachziehen, was von der Rückseite des Blattes durchscheint, blasser und weicher"
     ),
     "Lines wider than this, in pixels of the picture, are solid areas; 0 finds out from the pen": (
         "Linien, die breiter sind (in Bildpunkten), sind Flächen; 0 ermittelt es aus der Feder"
@@ -794,6 +813,9 @@ TEXTS = {
     "{0} filled shapes were left out.": "{0} gefüllte Formen wurden weggelassen.",
     "What lies beyond the sheet was left out: {0} of the picture.": (
         "Was außerhalb des Blattes liegt, wurde weggelassen: {0} des Bildes."
+    ),
+    "What shows through from the back was left out: {0} of the ink.": (
+        "Was von der Rückseite durchscheint, wurde weggelassen: {0} der Tusche."
     ),
     "The sheet was not straightened: its four corners are not sure.": (
         "Das Blatt wurde nicht entzerrt: seine vier Ecken sind nicht sicher."

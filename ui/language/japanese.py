@@ -3,6 +3,21 @@
 from __future__ import annotations
 
 TEXTS = {
+    # pencil and its lines
+    "Merge to One Line": "一本の線に統合",
+    "Make one line of the selected strokes, in the middle of them; pencil strokes stay": (
+        "選択したストロークの中央に一本の線を作ります。鉛筆のストロークは残ります"
+    ),
+    "Split into Pencil Strokes": "鉛筆のストロークに分割",
+    "Put the pencil strokes that say a line in its place, for all selected lines": (
+        "選択した線を、元になった鉛筆のストロークに置き換えます"
+    ),
+    "Select two or more strokes that are one line.": (
+        "一本の線になるストロークを二つ以上選択してください。"
+    ),
+    "Select lines that were made of pencil strokes.": (
+        "鉛筆のストロークから作られた線を選択してください。"
+    ),
     "Trace Drawing": "線画をトレース",
     "Turn a scanned drawing into Grease Pencil strokes that run straight through junctions": (
         "スキャンした線画を、交点をまっすぐ通り抜けるグリースペンシルのストロークに変換します"
@@ -158,6 +173,10 @@ TEXTS = {
     "Straighten Sheet": "用紙の歪みを補正",
     "Take the perspective out of a photographed sheet, as seen from straight above": (
         "写真に撮った用紙の遠近の歪みを除き、真上から見たようにします"
+    ),
+    "Leave Out the Back": "裏面を除く",
+    "Don't trace what shows through from the back of the sheet, paler and softer": (
+        "用紙の裏から透けて見える、薄くてぼけたものをトレースしません"
     ),
     "Lines wider than this, in pixels of the picture, are solid areas; 0 finds out from the pen": (
         "これより太い線 (画像のピクセル) はベタとみなします。0 ならペンから判断します"
@@ -722,6 +741,9 @@ TEXTS = {
     "{0} filled shapes were left out.": ("塗りつぶし図形 {0} 個を除きました。"),
     "What lies beyond the sheet was left out: {0} of the picture.": (
         "紙の外にあるものを除きました: 画像の {0}。"
+    ),
+    "What shows through from the back was left out: {0} of the ink.": (
+        "裏面から透けて見えるものを除きました: インクの {0}。"
     ),
     "The sheet was not straightened: its four corners are not sure.": (
         "用紙を補正しませんでした。四隅がはっきりしません。"

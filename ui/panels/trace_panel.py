@@ -9,6 +9,8 @@ import bpy
 from ...engine import InvoluteError
 from ...operators import job as jobs
 from ...operators.language import label, message
+from ...operators.pencil.merge_lines import INVOLUTE_OT_merge_lines
+from ...operators.pencil.split_line import INVOLUTE_OT_split_line
 from ...operators.sequences.playing import plays_frames
 from ...operators.sequences.trace_frames import (
     INVOLUTE_OT_import_sequence,
@@ -133,6 +135,10 @@ class INVOLUTE_PT_summary(bpy.types.Panel):
         row.operator(INVOLUTE_OT_trace_again.bl_idname, icon="FILE_REFRESH")
         row.operator(INVOLUTE_OT_take_settings.bl_idname, text="", icon="EYEDROPPER")
         column.prop(shown.view, "live", toggle=True, icon="PLAY")
+        if drawing.pencil is not None:
+            column = self.layout.column(align=True)
+            column.operator(INVOLUTE_OT_merge_lines.bl_idname, icon="AUTOMERGE_ON")
+            column.operator(INVOLUTE_OT_split_line.bl_idname, icon="MOD_EDGESPLIT")
         scan = scan_of(shown.object)
         if scan is not None:
             row = self.layout.row(align=True)

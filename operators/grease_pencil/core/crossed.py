@@ -46,7 +46,7 @@ def crossed(
             if stroke is None:
                 continue
             whole = whole_length(stroke)
-            line, along = _line(cel, curve, pixel_map, whole)
+            line, along = line_on_page(cel, curve, pixel_map, whole)
             at = [_within(length, whole) for length in crossings(line, along, path)]
             if not at:
                 continue
@@ -115,7 +115,7 @@ def _within(along: float, whole: float) -> float:
     return along if 0.0 <= along <= whole else along % whole
 
 
-def _line(cel: Curves, curve: int, pixel_map: PixelMap, whole: float) -> tuple[Array, Array]:
+def line_on_page(cel: Curves, curve: int, pixel_map: PixelMap, whole: float) -> tuple[Array, Array]:
     """A stroke as it lies on the page now, and the lengths at its points as it was traced.
 
     Args:
