@@ -221,6 +221,19 @@ class Settings:
         tip="Fill the closed regions between the lines, on a layer below",
         more="White, or the color that is painted there; in Blender and SVG",
     )
+    small_parts: float = _number(
+        0.0,
+        0.0,
+        1000.0,
+        soft_high=60.0,
+        unit="pens",
+        group=WHAT,
+        stage="strokes",
+        label="Small Parts",
+        tip="Put what hangs together and is smaller than this many pen widths, such as lettering, "
+        "on layers of its own; 0 doesn't",
+        more="Hide or delete the layer to leave it out; letters of 3 mm are 10 to 30 pens tall",
+    )
     align: tuple[tuple[float, float], ...] = ()
     min_length: float = _number(
         1.0,

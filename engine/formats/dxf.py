@@ -18,7 +18,7 @@ from ezdxf.layouts import Modelspace
 from ezdxf.lldxf import const
 
 from ..drawing import Drawing
-from ..ink.ink_names import ink_layers
+from ..strokes.small_parts import layers_of
 from ..values import Array, Stroke
 from .areas import SOLIDS
 from .flatten import controls
@@ -63,7 +63,7 @@ def _fill(document: Document, drawing: Drawing) -> None:
         document.layers.add(SOLIDS)
         for fill in drawing.fills:
             _add_area(space, [placed(ring) for ring in fill])
-    for ink in ink_layers(drawing.strokes):
+    for ink in layers_of(drawing):
         document.layers.add(ink.name, true_color=colors.rgb2int(ink.color))
         for number in ink.numbers:
             stroke = drawing.strokes[number]

@@ -16,7 +16,8 @@ import numpy as np
 
 from ..arrays.ragged import arc, count_up, offsets_of, owners
 from ..drawing import Drawing
-from ..ink.ink_names import InkLayer, ink_layers
+from ..ink.ink_names import InkLayer
+from ..strokes.small_parts import layers_of
 from ..values import Array, Stroke
 from .areas import area_layers
 from .flatten import outline, widths_along
@@ -36,7 +37,7 @@ Json = dict[str, Any]
 
 def write(drawing: Drawing, path: Path) -> None:
     """Write a drawing that draws itself in four seconds, in a short order of its strokes."""
-    inks = ink_layers(drawing.strokes)
+    inks = layers_of(drawing)
     total = sum(float(arc(outline(stroke))[-1]) for stroke in drawing.strokes)
     clock = _Clock(_DRAWN / max(total, 1e-6))
     layers = [_ink_layer(drawing, ink, (0, _DRAWN + _HELD), clock) for ink in inks]
@@ -54,7 +55,7 @@ def write_sequence(name: str, frames: Iterable[tuple[int, Drawing]], path: Path)
         if waiting is not None:
             time, drawing = waiting
             span = (time - first, until - first)
-            inks = ink_layers(drawing.strokes)
+            inks = layers_of(drawing)
             layers.extend(_ink_layer(drawing, ink, span) for ink in inks)
             layers.extend(_areas(drawing, span))
 

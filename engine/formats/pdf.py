@@ -23,7 +23,7 @@ from pypdf.generic import (
 )
 
 from ..drawing import Drawing
-from ..ink.ink_names import ink_layers
+from ..strokes.small_parts import layers_of
 from ..values import Array, Stroke
 from .areas import SOLIDS, area_layers
 from .flatten import controls
@@ -105,7 +105,7 @@ def _content(drawing: Drawing, fades: dict[str, DictionaryObject]) -> Content:
         paints = ["0 g" if name == SOLIDS else f"{_color(color)} rg" for _, color in areas]
         shapes = zip(paints, areas, strict=True)
         content.append((name, [f"{paint} {_rings(area)} f*" for paint, (area, _) in shapes]))
-    for ink in ink_layers(drawing.strokes):
+    for ink in layers_of(drawing):
         drawn = [f"{_color(ink.color)} rg {_color(ink.color)} RG"]
         for number in ink.numbers:
             stroke = drawing.strokes[number]

@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 
 from ..drawing import Drawing
-from ..ink.ink_names import ink_layers
+from ..strokes.small_parts import layers_of
 from ..values import Array, Stroke
 from .areas import SOLIDS
 from .flatten import outline, widths_along
@@ -52,7 +52,7 @@ def write_sequence(name: str, frames: Iterable[tuple[int, Drawing]], path: Path)
         if not images:
             shift = max(0, 1 - frame)  # drawings of a level count from 1
         strokes = []
-        for ink in ink_layers(drawing.strokes):
+        for ink in layers_of(drawing):
             style = _style(styles, ink.name, ink.color)
             strokes += [(style, drawing.strokes[number]) for number in ink.numbers]
         if drawing.fills:

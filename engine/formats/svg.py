@@ -16,10 +16,10 @@ import numpy as np
 
 from ..drawing import Drawing
 from ..errors import InvoluteError
-from ..ink.ink_names import ink_layers
 from ..routing import with_corners
 from ..settings import Settings
 from ..soundness import UnsoundError, check_drawing
+from ..strokes.small_parts import layers_of
 from ..values import Array, PlanarGraph, Routing, Stroke
 from .areas import REGIONS, SOLIDS, Area, area_layers
 from .flatten import around, controls, outline, widths_along
@@ -85,7 +85,7 @@ def center_lines(drawing: Drawing) -> list[str]:
     """A layer per ink with the paths of its strokes."""
     strokes, said_by = drawing.strokes, drawing.pencil_of
     lines = []
-    for ink in ink_layers(strokes):
+    for ink in layers_of(drawing):
         lines.append(layer(ink.name))
         lines += [_path(number, strokes[number], said_by=said_by(number)) for number in ink.numbers]
         lines.append("</g>")

@@ -9,7 +9,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from ..drawing import Drawing
-from ..ink.ink_names import ink_layers
+from ..strokes.small_parts import layers_of
 from ..values import Stroke
 from . import svg
 from .pen_shape import pen_shape
@@ -19,7 +19,7 @@ from .whole_file import write_text
 def write(drawing: Drawing, path: Path) -> None:
     """Write a drawing as shapes to an SVG file."""
     lines = [*svg.opening(drawing), *svg.below(drawing)]
-    for ink in ink_layers(drawing.strokes):
+    for ink in layers_of(drawing):
         lines.append(svg.layer(ink.name, ' stroke="none" fill-rule="nonzero"'))
         lines += [_shape(number, drawing.strokes[number]) for number in ink.numbers]
         lines.append("</g>")

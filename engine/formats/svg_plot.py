@@ -11,8 +11,8 @@ from pathlib import Path
 import numpy as np
 
 from ..drawing import Drawing
-from ..ink.ink_names import ink_layers
 from ..strokes.simplify import simplify
+from ..strokes.small_parts import layers_of
 from ..values import Array
 from . import svg
 from .areas import SOLIDS
@@ -29,7 +29,7 @@ def write(drawing: Drawing, path: Path) -> None:
     mm = drawing.mm_per_px
     lines = svg.opening(drawing, "mm", mm)
     number = 0
-    for ink in ink_layers(drawing.strokes):
+    for ink in layers_of(drawing):
         number += 1
         strokes = [drawing.strokes[k] for k in ink.numbers]
         pen = float(np.median([stroke.widths.mean() for stroke in strokes]))

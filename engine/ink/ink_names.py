@@ -36,9 +36,9 @@ def ink_name(color: Sequence[int]) -> str:
 
 @dataclass(frozen=True)
 class InkLayer:
-    """The strokes of one ink.
+    """The strokes of one ink, or what is small of them.
 
-    name: of its own on the page: Black, Red, Red 2.
+    name: of its own on the page: Black, Red, Red 2, Small Red.
     color: sRGB 0..255.
     numbers: of the strokes, ascending.
     """
@@ -48,15 +48,20 @@ class InkLayer:
     numbers: tuple[int, ...]
 
 
-def ink_layers(strokes: Sequence[Stroke]) -> list[InkLayer]:
-    """A layer per ink, that with the most strokes first."""
-    inks: dict[tuple[int, int, int], list[int]] = {}
+def ink_layers(strokes: Sequence[Stroke], small: Sequence[bool] = ()) -> list[InkLayer]:
+    """A layer per ink, that with the most strokes first; then those of what is small.
+
+    Args:
+        small: of each stroke, whether it comes to the small ones.
+    """
+    inks: dict[tuple[bool, tuple[int, int, int]], list[int]] = {}
     for number, stroke in enumerate(strokes):
-        inks.setdefault(stroke.color, []).append(number)
+        is_small = len(small) > 0 and bool(small[number])
+        inks.setdefault((is_small, stroke.color), []).append(number)
     times: dict[str, int] = {}
     found = []
-    for color, numbers in sorted(inks.items(), key=lambda item: -len(item[1])):
-        name = ink_name(color)
+    for (is_small, color), numbers in sorted(inks.items(), key=lambda i: (i[0][0], -len(i[1]))):
+        name = f"Small {ink_name(color)}" if is_small else ink_name(color)
         times[name] = times.get(name, 0) + 1
         unique = name if times[name] == 1 else f"{name} {times[name]}"
         found.append(InkLayer(unique, color, tuple(numbers)))

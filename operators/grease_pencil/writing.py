@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import bpy
 import numpy as np
 
-from ...engine.ink.ink_names import ink_layers, ink_name
+from ...engine.ink.ink_names import ink_name
+from ...engine.strokes.small_parts import layers_of
 from . import cels
 from .core.pixel_map import PixelMap
 from .core.stroke_arrays import HALF, LINE, TRACE, Curves, bridge_holes, column, stroke_curves
@@ -68,7 +69,7 @@ def write(
     if drawing.pencil and drawing.pencil.strokes:
         written.add(PENCIL_LAYER)
         _write_pencil(data, frame, drawing, pixel_map, key, clear)
-    inks = ink_layers(drawing.strokes)
+    inks = layers_of(drawing)
     for ink in inks:
         layer = into.layer if into else ink.name
         written.add(layer)

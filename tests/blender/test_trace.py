@@ -342,3 +342,28 @@ def test_a_copied_file_is_traced_from_the_clipboard(bpy, part, scan, tmp_path):
         bpy.ops.involute.paste()
     assert paste.pasted(bpy.context) is None
     assert {area.type for area in bpy.context.window.screen.areas} & {"VIEW_3D"}
+
+
+def test_lettering_comes_to_a_layer_of_its_own(bpy, part, tmp_path):
+    """And stays there when the picture is traced again."""
+    part("engine.scan")
+    import cv2
+
+    paper = np.full((300, 400), 255, np.uint8)
+    lines = ((30, 60), (370, 260)), ((60, 150), (72, 116)), ((72, 116), (84, 150))
+    for a, b in (*lines, ((66, 138), (79, 138))):
+        cv2.line(paper, a, b, 0, 3, cv2.LINE_AA)
+    path = tmp_path / "letter.png"
+    cv2.imwrite(str(path), paper)
+    assert bpy.ops.involute.trace(filepath=str(path), small_parts=20.0) == {"FINISHED"}
+    data = bpy.context.active_object.data
+    cels = part("operators.grease_pencil.cels")
+
+    def counts():
+        return {layer.name: len(cels.read(cel)) for layer, cel in cels.cels_at(data, 1)}
+
+    first = counts()
+    assert set(first) == {"Black", "Small Black"}
+    assert first["Black"] == 1
+    assert bpy.ops.involute.trace_again(even_width=True) == {"FINISHED"}
+    assert counts() == first

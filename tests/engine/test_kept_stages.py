@@ -24,7 +24,7 @@ OTHER = {
 OTHER |= {name: not Settings.__dataclass_fields__[name].default
           for name, about in ABOUT.items() if about.kind is bool}  # fmt: skip
 OTHER |= {"min_length": 6.0, "smoothing": 0.8, "corners": 0.5, "width_scale": 2.0, "tolerance": 1.0}
-OTHER |= {"polarity": "dark", "provider": "classical", "device": "cpu"}
+OTHER |= {"polarity": "dark", "small_parts": 12.0, "provider": "classical", "device": "cpu"}
 OTHER |= {"align": ((20.0, 20.0), (120.0, 20.0))}
 
 

@@ -76,3 +76,15 @@ def test_crisp_lines_along_the_pixels_are_all_there(step):
     assert len(drawing.strokes) == len(range(30, 290, step))
     assert drawing.fidelity.lost < 0.01
     assert not drawing.warnings
+
+
+def test_even_crisp_lines_are_whole_where_the_ridge_filter_takes_over():
+    """The network sees them faintly here and there: that is no crest to stop beside."""
+    fine = np.full((400 * 10, 560 * 10), 255, np.uint8)
+    for number in range(30):  # 2.2 px wide, centred on whole pixels
+        middle = (100 + 12 * number) * 10
+        fine[1000:3000, middle - 11 : middle + 11] = 0
+    page = cv2.resize(fine, (560, 400), interpolation=cv2.INTER_AREA)
+    drawing = vectorize(page, turn=False)
+    assert len(drawing.strokes) == 30
+    assert min(np.ptp(stroke.points[:, 1]) for stroke in drawing.strokes) > 195

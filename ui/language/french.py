@@ -887,4 +887,11 @@ TEXTS = {
     ),
     # frames
     "Frame": "Image",
+    # small parts
+    "Small Parts": "Petites parties",
+    "Put what hangs together and is smaller than this many pen widths, such as "
+    "lettering, on layers of its own; 0 doesn't": (
+        "Placer ce qui se tient et qui est plus petit que tant de largeurs de plume, comme "
+        "du lettrage, sur des calques à part ; 0 ne le fait pas"
+    ),
 }

@@ -931,4 +931,11 @@ TEXTS = {
     ),
     # frames
     "Frame": "Bild",
+    # small parts
+    "Small Parts": "Kleine Teile",
+    "Put what hangs together and is smaller than this many pen widths, such as "
+    "lettering, on layers of its own; 0 doesn't": (
+        "Was zusammenhängt und kleiner ist als so viele Strichbreiten, etwa Schrift, auf "
+        "eigene Ebenen legen; 0 tut es nicht"
+    ),
 }

@@ -859,4 +859,11 @@ TEXTS = {
     ),
     # frames
     "Frame": "フレーム",
+    # small parts
+    "Small Parts": "小さな部分",
+    "Put what hangs together and is smaller than this many pen widths, such as "
+    "lettering, on layers of its own; 0 doesn't": (
+        "つながっていてペン幅のこの倍数より小さいもの (文字など) "
+        "を別のレイヤーに置く。0 では置かない"
+    ),
 }
