@@ -276,7 +276,7 @@ class Settings:
         more="Corners stay",
     )
     corners: float = _number(
-        -1.0,
+        0.0,
         -1.0,
         1.0,
         group=CLEAN,

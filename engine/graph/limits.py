@@ -197,7 +197,10 @@ class Limits:
         0.75, "pen widths", "of a dot, for each of Settings.min_length", "tests/engine/test_dust.py"
     )
     dot_solid: float = _limit(
-        0.8, "share", "of the full ink that a dot has", "tests/engine/test_dust.py"
+        0.85,
+        "share",
+        "of the full ink that a dot has: on 48 held-out pages 8 of 8 dots, and 3 of 5 specks",
+        "tests/engine/test_dust.py",
     )
     stub_tip: float = _limit(
         1.5,

@@ -40,7 +40,7 @@ _GONE = 0.3  # share of a stroke that must be seen for any of it to count
 CHANNELS = ("ink", "centerline", "junctions", "endpoints", "half_width", "solid")
 CHANNELS += ("doubled", "apart", "clean")
 # Kinds of pages and how often they are drawn.
-KINDS = {"paper": 0.55, "digital": 0.2, "rough": 0.15, "many pens": 0.08, "brush": 0.02}
+KINDS = {"paper": 0.65, "digital": 0.2, "rough": 0.05, "many pens": 0.08, "brush": 0.02}
 _WEAK = ("charcoal", "soft pencil", "charcoal", "pencil")  # media that need more practice
 
 
