@@ -7,6 +7,8 @@ unless it lies beside one that both branches share.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from ..arrays.ragged import owners
@@ -16,9 +18,10 @@ from .courses import spoilt
 from .evidence import Evidence
 from .limits import LIMITS
 from .nearby import near_pairs
-from .topology import join
+from .topology import connected, join, lengths, select
 
 _WITHIN = 1e-4  # of a segment at its ends that count as outside
+_ONE = 0.01  # px; crossings as near as that are one, of three branches and more
 
 
 def planarize(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> PlanarGraph:
@@ -56,7 +59,19 @@ def planarize(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> Pla
         np.stack([np.roll(head, 1), tail], -1).astype(np.int32),
     )
     # A ring that is crossed has no seam any more.
-    return join(cut)
+    return join(_merged(cut))
+
+
+def _merged(graph: PlanarGraph) -> PlanarGraph:
+    """The graph with one vertex where several lie in one place, linked by branches of no length."""
+    none = (lengths(graph) < _ONE) & (graph.ends[:, 0] != graph.ends[:, 1])
+    if not none.any():
+        return graph
+    ends = connected(len(graph.vertices), graph.ends[none])[graph.ends]
+    points = graph.points.copy()
+    points[graph.offsets[:-1]] = graph.vertices[ends[:, 0]]
+    points[graph.offsets[1:] - 1] = graph.vertices[ends[:, 1]]
+    return select(replace(graph, points=points, ends=ends), ~none)
 
 
 def _crossings(graph: PlanarGraph, shape: tuple[int, int]) -> tuple[Array, ...]:

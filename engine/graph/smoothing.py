@@ -18,13 +18,14 @@ from .evidence import Evidence
 from .limits import LIMITS
 
 _PARABOLA = np.array([-3, 12, 17, 12, -3]) / 35
+_LOOP = 3  # pieces of a line that comes back to where it began, however small it is
 
 
 def space_points(graph: PlanarGraph, evidence: Evidence, settings: Settings) -> PlanarGraph:
     """Even points along every branch.
 
     Reads: nothing but the graph.
-    Promises: points 1 px apart.
+    Promises: points 1 px apart, a small loop's closer.
     """
     return even(graph)
 
@@ -45,7 +46,9 @@ def even(graph: PlanarGraph, spacing: float = 1.0) -> PlanarGraph:
     points = graph.points.astype(np.float64)
     arc = np.cumsum(steps(points, graph.offsets))
     starts, stops = arc[graph.offsets[:-1]], arc[graph.offsets[1:] - 1]
-    count = np.maximum(np.rint((stops - starts) / spacing).astype(np.int64), 1) + 1
+    # With two points a loop would be none.
+    least = np.where(graph.ends[:, 0] == graph.ends[:, 1], _LOOP, 1)
+    count = np.maximum(np.rint((stops - starts) / spacing).astype(np.int64), least) + 1
     offsets = offsets_of(count)
     branch = owners(offsets)
     part = (np.arange(offsets[-1]) - offsets[branch]) / (count - 1)[branch]

@@ -34,18 +34,23 @@ def pdf_pages(data: bytes) -> int:
 
 
 def pdf(data: bytes, page: int) -> Array | None:
-    """One page of a PDF at 300 dpi.
+    """One page of a PDF at 300 dpi; None for a damaged one.
 
     Raises:
         InvoluteError: it is too large, or locked; the name of the file is to be put before it.
     """
+    import pypdfium2
+
     document = _pdf(data)
     if document is None or not 0 <= page < len(document):
         return None
-    sheet = document[page]
-    if max(sheet.get_size()) * PDF_DPI / _POINT > _LARGEST:
-        raise _too_large()
-    picture: Array = sheet.render(scale=PDF_DPI / _POINT, rev_byteorder=True).to_numpy()
+    try:
+        sheet = document[page]
+        if max(sheet.get_size()) * PDF_DPI / _POINT > _LARGEST:
+            raise _too_large()
+        picture: Array = sheet.render(scale=PDF_DPI / _POINT, rev_byteorder=True).to_numpy()
+    except pypdfium2.PdfiumError:  # the document is whole, the page is not
+        return None
     return np.ascontiguousarray(picture[..., :3] if picture.ndim == 3 else picture)
 
 

@@ -99,14 +99,11 @@ def _with_length(points: Array, raw: Array, lines: Lines) -> Array:
 
 
 def _drawn_together(points: Array, lines: Lines, kept: Array, handles: Array | None) -> Array:
-    """(N,) bool: all samples of the lines of which few points, and their curve, would leave one."""
+    """(N,) bool: all samples of the lines whose few points would be one, as those of a small loop
+    whose curve has no other point than where it begins and ends."""
     away, run, begin = _away(points, lines)
     inside = away >= 0
     reach = np.where(kept & inside, away, 0.0)
-    if handles is not None:
-        off = handles - points[lines.start][run][:, None]
-        off = np.hypot(*np.moveaxis(off, -1, 0)).max(1)
-        reach = np.maximum(reach, np.where(kept & inside, off, 0.0))
     gone = (np.maximum.reduceat(reach, begin) < _POINT)[run] & inside
     if handles is not None:
         handles[gone] = points[gone][:, None]  # straight from one to the next

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
-from urllib.parse import unquote, urlsplit
-from urllib.request import url2pathname
 
 import bpy
 
@@ -82,9 +81,16 @@ def copied_files(text: str) -> tuple[str, list[str]]:
 
 
 def _path_of(line: str) -> Path:
-    if line.lower().startswith("file:"):
-        return Path(url2pathname(unquote(urlsplit(line).path)))
-    return Path(line)
+    """The path that a line names; what Python has for addresses can open them, too, and nothing
+    here is to be able to."""
+    address = re.fullmatch(r"file:(?://[^/]*)?(/.*)", line, re.IGNORECASE)
+    if not address:
+        return Path(line)
+    raw = re.sub(
+        rb"%([0-9a-fA-F]{2})", lambda of: bytes.fromhex(of[1].decode()), address[1].encode()
+    )
+    path = raw.decode("utf-8", "surrogateescape")
+    return Path(path[1:] if re.match(r"/[a-zA-Z]:", path) else path)  # of Windows: /C:/...
 
 
 CLASSES = (INVOLUTE_OT_paste,)

@@ -138,6 +138,14 @@ def test_the_sentence_says_what_is_wrong_and_where(document, place, change, says
     assert "\n" not in sentence
 
 
+def test_branches_without_widths_are_refused(document):
+    """Regions, and which junctions are doubtful, are measured in pen widths."""
+    lacking = copy.deepcopy(document)
+    lacking["graph"]["widths"] = None
+    with pytest.raises(InvoluteError, match="the widths of the branches are missing"):
+        drawing_json.read(json.dumps(lacking))
+
+
 @pytest.mark.parametrize(
     ("text", "says"),
     [

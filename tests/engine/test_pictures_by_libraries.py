@@ -152,3 +152,12 @@ def test_without_the_library_it_says_what_to_do(name, module, says, tmp_path, mo
     finally:
         for kind in picture_kinds.KINDS:
             kind.__dict__.pop("is_read", None)
+
+
+def test_a_pdf_whose_page_is_damaged_is_told(tmp_path):
+    path = tmp_path / "torn.pdf"
+    whole = pdf()
+    assert b"/Type/Page>>" in whole
+    path.write_bytes(whole.replace(b"/Type/Page>>", b"/Type/Pa@e>>"))
+    with pytest.raises(InvoluteError, match="damaged"):
+        read_image(path)

@@ -9,7 +9,7 @@ import pytest
 import shapely
 from hypothesis import given
 from hypothesis import strategies as st
-from involute.engine import Settings
+from involute.engine import Settings, vectorize
 from involute.engine.strokes import Page, build, walk
 from involute.engine.strokes.bezier import fit
 from involute.engine.strokes.simplify import simplify
@@ -377,3 +377,15 @@ def test_a_ring_smaller_than_the_pen_has_a_length(curve, alone: bool, pen: float
     for stroke in build(page, walk(partner)):
         places = stroke.points if stroke.handles is None else stroke.handles.reshape(-1, 2)
         assert np.ptp(np.concatenate([stroke.points, places]), axis=0).max() > 0.1
+
+
+@pytest.mark.parametrize(
+    ("seed", "asked"),
+    [(0, Settings(provider="given", curve="bezier", smoothing=1.0)), (5, Settings(smoothing=1.0))],
+)
+def test_every_stroke_of_noise_has_a_length(seed: int, asked: Settings) -> None:
+    """Loops of a pixel, as curves and as points; three lines that cross in one place."""
+    noise = np.random.default_rng(seed).integers(0, 256, (110, 130), dtype=np.uint8)
+    strokes = vectorize(noise, replace(asked, min_length=0.0, corners=-1.0)).strokes
+    assert len(strokes) > 40
+    assert min(np.ptp(stroke.points, axis=0).max() for stroke in strokes) > 1e-3
