@@ -2,7 +2,8 @@
 
 A page has junctions of 3 half-branches and few of more. A runtime for networks wants a table with
 room for the most at every one of them; here those of one degree stand together, nothing is padded,
-and the same sums (to rounding) take a fifth of the time. All processors get the same.
+and the same sums (to rounding) take less time. They are made with twice the digits that are handed
+on: how many threads NumPy's matrix products use changes their rounding, but not what is left of it.
 """
 
 from __future__ import annotations
@@ -67,7 +68,9 @@ class Transformer:
         if not layers or len(used) != len(names):
             raise ValueError("this is no routing network")
         known |= {f"{name}.weight": known[m] for name, m in zip(names, used, strict=True)}
-        self._weights: Mapping[str, Array] = known
+        self._weights: Mapping[str, Array] = {
+            name: np.asarray(weight, np.float64) for name, weight in known.items()
+        }
         self._layers = layers
         self._heads = len(known["layers.0.bias.bias"])
 
@@ -91,7 +94,7 @@ class Transformer:
         number[flat] = np.arange(len(flat))
         other = number[sibling.reshape(-1)[flat]]
 
-        x = self._linear("token.0", tokens.reshape(mask.size, -1)[flat])
+        x = self._linear("token.0", tokens.reshape(mask.size, -1)[flat].astype(np.float64))
         x = self._linear("token.2", np.maximum(x, 0, out=x))
         e = self._edges(x, pairs, groups)
         for layer in range(self._layers):
@@ -112,7 +115,7 @@ class Transformer:
 
     def _norm(self, name: str, x: Array) -> Array:
         away = x - x.mean(-1, keepdims=True)
-        away /= np.sqrt(np.square(away).mean(-1, keepdims=True) + np.float32(_EPSILON))
+        away /= np.sqrt(np.square(away).mean(-1, keepdims=True) + _EPSILON)
         away *= self._weights[f"{name}.weight"]
         away += self._weights[f"{name}.bias"]
         return away
@@ -120,7 +123,9 @@ class Transformer:
     def _edges(self, x: Array, pairs: Array, groups: list[_Group]) -> Array:
         """(P, edge) what is known of every ordered pair, the same both ways."""
         near = [pairs[g.rows[:, None, None], g.slots[:, :, None], g.slots[:, None]] for g in groups]
-        e = self._linear("pair", np.concatenate([n.reshape(-1, pairs.shape[3]) for n in near]))
+        e = self._linear(
+            "pair", np.concatenate([n.reshape(-1, pairs.shape[3]) for n in near], dtype=np.float64)
+        )
         start, end = self._linear("pair_from", x), self._linear("pair_to", x)
         for g in groups:
             of = g.of_pairs(e)
@@ -138,12 +143,12 @@ class Transformer:
         y = self._linear(f"{name}qkv", self._norm(f"{name}norm", x))
         q, k, v = (part.reshape(count, heads, depth) for part in np.split(y, 3, 1))
         bias = self._linear(f"{name}bias", e)
-        heard = np.empty((count, width + heads * e.shape[1]), np.float32)
+        heard = np.empty((count, width + heads * e.shape[1]))
         for g in groups:
             n, d = g.shape
             near, far, own = (g.halves(part).transpose(0, 2, 1, 3) for part in (q, k, v))
             logits: Array = near @ far.transpose(0, 1, 3, 2)
-            logits *= np.float32(depth**-0.5)
+            logits *= depth**-0.5
             logits += g.of_pairs(bias).transpose(0, 3, 1, 2)
             logits -= logits.max(3, keepdims=True)
             attention = np.exp(logits, out=logits)

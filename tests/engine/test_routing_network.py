@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -225,3 +228,25 @@ def test_missing_or_damaged_weights_are_said_in_a_sentence(tmp_path: Path) -> No
     (tmp_path / "routing.onnx").write_bytes(b"no network")
     with pytest.raises(InvoluteError, match="routing network"):
         network.load(tmp_path)
+
+
+def test_any_number_of_threads_gives_the_same_scores() -> None:
+    """NumPy's matrix products round by how many threads share the work."""
+    program = """
+import numpy as np
+from involute.engine import Settings
+from involute.engine.routing import route
+from involute.synthesis.true_graph import graph_from_strokes
+for seed in range(8):
+    ends = np.random.default_rng(seed).uniform(10, 390, (6 + 4 * seed, 2, 2))
+    graph, _ = graph_from_strokes([np.linspace(a, b, 60) for a, b in ends])
+    print(route(graph, Settings(router="network")).pair_score.tobytes().hex())
+"""
+
+    def scores(threads: int) -> str:
+        surroundings = {**os.environ, "OMP_NUM_THREADS": str(threads)}
+        command = [sys.executable, "-c", program]
+        done = subprocess.run(command, env=surroundings, capture_output=True, text=True, check=True)
+        return done.stdout
+
+    assert scores(1) == scores(2)
