@@ -116,8 +116,8 @@ def check_graph(graph: PlanarGraph) -> None:
     if graph.clues is not None:  # of a corner that the artist made there are none
         _need(graph.clues.ndim == 2, "the clues of the corners are not a table of the right size")
         _table(graph.clues, "f", (len(graph.corners), None), "the clues of the corners")
-    if graph.branch_count:
-        _need(graph.widths is not None, "the widths of the branches are missing")
+    _need(graph.widths is not None or not graph.branch_count, "the branches have no widths")
+    if graph.widths is not None:
         _need((graph.widths >= 0).all(), "the widths of the branches are below zero")
 
 

@@ -142,7 +142,7 @@ def test_branches_without_widths_are_refused(document):
     """Regions, and which junctions are doubtful, are measured in pen widths."""
     lacking = copy.deepcopy(document)
     lacking["graph"]["widths"] = None
-    with pytest.raises(InvoluteError, match="the widths of the branches are missing"):
+    with pytest.raises(InvoluteError, match="the branches have no widths"):
         drawing_json.read(json.dumps(lacking))
 
 
