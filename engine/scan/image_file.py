@@ -28,8 +28,12 @@ from .tiff_directories import DamagedTiffError
 _ORIENTATION = 0x0112  # EXIF tag
 _HEAD = 64  # bytes that show what a file is
 # Pixels that one byte can stand for at most: the longest string of a GIF, 4096 in 9 bits; 64 in two
-# bits of a JPEG, and four times as many in runs of empty blocks.
-_PER_BYTE = {"GIF": 4096, "JPEG": 1024}
+# bits of a JPEG, and four times as many in runs of empty blocks. Of a PNG, unpacked bytes: 258 in
+# two bits.
+_PER_BYTE = {"GIF": 4096, "JPEG": 1024, "PNG": 1032}
+MAX_SIDE = 20_000  # px
+_REFUSED = 2**30  # px; OpenCV makes no room for more, and says so
+_PNG_CHANNELS = {0: 1, 2: 3, 3: 1, 4: 2, 6: 4}  # by color type
 _FRAME_HEADERS = frozenset({*range(0xC0, 0xD0)} - {0xC4, 0xC8, 0xCC})  # of a JPEG
 
 
@@ -61,14 +65,13 @@ def read_image(path: str | PathLike[str], page: int = 0) -> Array:
     except InvoluteError as error:  # of a reader, which knows no name
         raise InvoluteError(f"{path.name}: {error}") from None
     except (cv2.error, MemoryError) as error:
-        if isinstance(error, cv2.error) and "MAX_IMAGE" not in str(error):
-            picture = None
-        else:
-            raise InvoluteError(
-                f"{path.name} is too large to be read; scale it down to at most 20,000 px a side."
-            ) from None
+        if isinstance(error, MemoryError) or "MAX_IMAGE" in str(error):
+            raise _too_large(path) from None
+        picture = None
     if picture is None:
         raise InvoluteError(_why_not(path, kind))
+    if max(picture.shape[:2]) > MAX_SIDE:
+        raise _too_large(path)
     return picture
 
 
@@ -110,6 +113,12 @@ def _opened(path: Path) -> Iterator[BinaryIO]:
         raise InvoluteError(f"Can't read {path}: {error.strerror or error}.") from None
     except ValueError:
         raise InvoluteError(f"{str(path)!r} can't be the name of a file.") from None
+
+
+def _too_large(path: Path) -> InvoluteError:
+    return InvoluteError(
+        f"{path.name} is too large to be read; scale it down to at most {MAX_SIDE:,} px a side."
+    )
 
 
 def _why_not(path: Path, kind: Kind | None) -> str:
@@ -182,7 +191,14 @@ def _as_rgb(picture: Array) -> Array:
 
 
 def _claimed(data: Array, name: str) -> int:
-    """Pixels that a GIF or JPEG says it has; 0 when it does not say."""
+    """Pixels that a GIF or JPEG says it has, or unpacked bytes of a PNG; 0 when it does not say."""
+    if name == "PNG":
+        if len(data) < 26 or data[12:16].tobytes() != b"IHDR":
+            return 0
+        width, height, bits, colors = struct.unpack(">IIBB", data[16:26].tobytes())
+        if width * height > _REFUSED:
+            return 0
+        return height * (width * bits * _PNG_CHANNELS.get(colors, 1) // 8 + 1)
     if name == "GIF":
         width, height = struct.unpack("<HH", data[6:10].tobytes().ljust(4, b"\0"))
         return width * height

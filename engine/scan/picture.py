@@ -13,11 +13,11 @@ import numpy as np
 
 from ..errors import InvoluteError
 from ..values import Array
-from .image_file import read_image
+from .image_file import MAX_SIDE, read_image
 
 Source = str | PathLike[str] | Array
 
-MIN_SIDE, MAX_SIDE = 16, 20_000  # px
+MIN_SIDE = 16  # px
 _DARKEST, _LIGHT = 0.02, 0.5  # the darkest 2 % of the opaque pixels are lighter than half of white
 
 

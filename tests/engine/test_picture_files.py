@@ -257,6 +257,14 @@ def lying_jpeg() -> bytes:
     return bytes(data)
 
 
+def lying_png() -> bytes:
+    """Says that it has 20,000 px a side, with a checksum that fits."""
+    data = bytearray(encoded(".png", GRAY))
+    data[16:24] = struct.pack(">II", 20_000, 20_000)
+    data[29:33] = struct.pack(">I", zlib.crc32(data[12:29]))
+    return bytes(data)
+
+
 @pytest.mark.parametrize(
     "data",
     [
@@ -268,6 +276,7 @@ def lying_jpeg() -> bytes:
         tiff(DEEP, t256=2**31, t257=2**31),
         tiff(DEEP, t322=0, t323=0, t324=8),
         lying_jpeg(),
+        lying_png(),
         b"GIF89a" + struct.pack("<HH", 20_000, 20_000) + encoded(".gif", COLOR)[10:],
         tga(GRAY, 11, 0, b"\x81\0")[:12] + struct.pack("<HH", 65535, 65535) + b"\x08\0\x81\0",
     ],
