@@ -117,7 +117,7 @@ def _opened(path: Path) -> Iterator[BinaryIO]:
 
 def _too_large(path: Path) -> InvoluteError:
     return InvoluteError(
-        f"{path.name} is too large to be read; scale it down to at most {MAX_SIDE:,} px a side."
+        f"{path.name} is too large to be read; scale it down to at most 20,000 px a side."
     )
 
 
