@@ -74,7 +74,10 @@ def trace_maps(
     centerline and half_width are None: memory. Older weights have no doubled, apart and clean.
     """
     maps = _room(ink, _paper(infer).shape[0])
-    answers = lambda window: _cut(infer(_padded(window)), window.shape)  # noqa: E731
+
+    def answers(window: Array) -> Array:
+        return _cut(infer(_padded(window)), window.shape)
+
     look(ink, answers, maps, tick, shift, wanted)
     return _named(maps)
 
