@@ -94,7 +94,7 @@ def test_a_drawing_is_not_lost_with_its_camera(bpy, part, scan):
 
 def test_only_the_strokes_are_made_again(bpy, part, scan):
     """Adjust Last Operation with another smoothing: the same as a trace with it, at once."""
-    recent = part("operators.tracing.recent")
+    recent = part("operators.tracing.recent").PAGES
     recent._kept.clear()
     bpy.ops.involute.trace(filepath=str(scan))
     (first,) = recent._kept.values()
