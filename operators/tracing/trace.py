@@ -20,7 +20,7 @@ from ..view.view_state import view_of
 from . import part, sources
 from .background import JobOperator
 from .file_choice import ChosenFiles
-from .placing import place_drawing
+from .placing import fits_camera, place_drawing
 from .scan_behind import put_behind
 from .settings_layout import draw_placing, draw_settings
 from .sources import Source
@@ -184,7 +184,9 @@ class INVOLUTE_OT_trace(JobOperator, ChosenFiles, PlacingOptions, TraceOptions, 
         (context.collection or context.scene.collection).objects.link(obj)
         view_of(context).key = put(obj, result, frame, pixel_map, order=self.order)
         if self.show_scan:
-            put_behind(obj, result.source, size, pixel_map)
+            lies = state.pixel_map_in(obj.data)
+            paper = not fits_camera(context, self.place)
+            put_behind(obj, result.source, size, lies, paper=paper)
         return obj
 
 

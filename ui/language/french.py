@@ -284,9 +284,6 @@ TEXTS = {
         "Debout à l'origine du monde, devant ce qui s'y trouve"
     ),
     "Scan Behind": "Image derrière",
-    "Show the picture behind the strokes that were traced from it": (
-        "Montrer derrière les traits l'image dont ils sont tirés"
-    ),
     "Where It Goes": "Où cela va",
     "Scan": "Numérisation",
     "Fit to Camera": "Ajuster à la caméra",
@@ -932,4 +929,9 @@ TEXTS = {
     ),
     "Keep as Object": "Garder comme objet",
     "Part: {count} strokes": "Partie : {count} traits",
+    # paper
+    "Show the picture, paled and on paper, behind the strokes that were traced from it": (
+        "Montrer l'image, pâlie et sur papier, derrière les traits vectorisés"
+    ),
+    "Paper": "Papier",
 }

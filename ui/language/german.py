@@ -298,9 +298,6 @@ TEXTS = {
         "Aufrecht am Ursprung der Welt, vor dem, was dort steht"
     ),
     "Scan Behind": "Scan dahinter",
-    "Show the picture behind the strokes that were traced from it": (
-        "Das Bild hinter den Strichen zeigen, die daraus nachgezogen wurden"
-    ),
     "Where It Goes": "Wohin es kommt",
     "Scan": "Scan",
     "Fit to Camera": "In die Kamera einpassen",
@@ -977,4 +974,9 @@ TEXTS = {
     ),
     "Keep as Object": "Als Objekt behalten",
     "Part: {count} strokes": "Teil: {count} Striche",
+    # paper
+    "Show the picture, paled and on paper, behind the strokes that were traced from it": (
+        "Das Bild, blass und auf Papier, hinter den Strichen zeigen, die aus ihm nachgezogen wurden"
+    ),
+    "Paper": "Papier",
 }

@@ -279,9 +279,6 @@ TEXTS = {
         "ワールド原点に立て、そこにあるものの手前に置きます"
     ),
     "Scan Behind": "背後にスキャン",
-    "Show the picture behind the strokes that were traced from it": (
-        "トレースした元の画像をストロークの背後に表示します"
-    ),
     "Where It Goes": "置き場所",
     "Scan": "スキャン",
     "Fit to Camera": "カメラに合わせる",
@@ -898,4 +895,9 @@ TEXTS = {
     ),
     "Keep as Object": "オブジェクトとして残す",
     "Part: {count} strokes": "一部: {count} ストローク",
+    # paper
+    "Show the picture, paled and on paper, behind the strokes that were traced from it": (
+        "トレース元の画像を、薄くして紙の上で、ストロークの後ろに表示する"
+    ),
+    "Paper": "紙",
 }

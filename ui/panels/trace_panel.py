@@ -21,7 +21,7 @@ from ...operators.tracing.background import INVOLUTE_OT_cancel, stage_of
 from ...operators.tracing.choose_part import INVOLUTE_OT_choose_part
 from ...operators.tracing.import_scan import INVOLUTE_OT_import_scan
 from ...operators.tracing.paste import INVOLUTE_OT_paste
-from ...operators.tracing.scan_behind import scan_of
+from ...operators.tracing.scan_behind import paper_of, scan_of
 from ...operators.tracing.settings_layout import draw_placing, draw_settings
 from ...operators.tracing.sources import is_image_empty
 from ...operators.tracing.trace import INVOLUTE_OT_trace
@@ -166,11 +166,17 @@ class INVOLUTE_PT_summary(bpy.types.Panel):
             column = self.layout.column(align=True)
             column.operator(INVOLUTE_OT_merge_lines.bl_idname, icon="AUTOMERGE_ON")
             column.operator(INVOLUTE_OT_split_line.bl_idname, icon="MOD_EDGESPLIT")
-        scan = scan_of(shown.object)
-        if scan is not None:
-            row = self.layout.row(align=True)
-            row.prop(scan, "color", index=3, text="Scan", slider=True)
-            row.prop(scan, "hide_viewport", text="")
+        _behind(self.layout.row(align=True), shown.object)
+
+
+def _behind(row: bpy.types.UILayout, obj: bpy.types.Object) -> None:
+    """How strongly the scan shows; and whether the paper under it does."""
+    scan, paper = scan_of(obj), paper_of(obj)
+    if scan is not None:
+        row.prop(scan, "color", index=3, text="Scan", slider=True)
+        row.prop(scan, "hide_viewport", text="")
+    if paper is not None:
+        row.prop(paper, "hide_viewport", text="" if scan else "Paper", icon="FILE_BLANK")
 
 
 def draw_sentence(layout: bpy.types.UILayout, sentence: str, icon: str) -> None:
