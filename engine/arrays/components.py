@@ -27,7 +27,7 @@ def components(dark: Array, connectivity: int = 8) -> tuple[int, Array, Array, A
         return cv2.connectedComponentsWithStats(dark, connectivity=connectivity)
     count, label = cv2.connectedComponents(dark, connectivity=connectivity)
     at = np.flatnonzero(dark != 0)  # of bool it is many times as quick
-    of = label.reshape(-1)[at]
+    of = label.reshape(-1)[at].astype(np.int64)
     y, x = (part.astype(np.int32) for part in np.divmod(at, dark.shape[1]))
     stats = np.zeros((count, 5), np.int32)
     left, top, width, height, area = stats.T
