@@ -63,6 +63,11 @@ def says_as_much(drawing: Drawing, than: Drawing, share: float) -> bool:
     ) >= _LENGTH * _length(than)
 
 
+def note(settings: Settings) -> str:
+    """What is said of a page that was looked at from farther away."""
+    return f"The lines are grainy: traced from farther away (--grain {settings.grain})."
+
+
 def _length(drawing: Drawing) -> float:
     """Of all strokes together, px of the input."""
     return float(

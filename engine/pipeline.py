@@ -22,7 +22,7 @@ from .centerline.mending import mended
 from .drawing import Drawing, Fill
 from .errors import Cancelled
 from .fills.solids import split_solids
-from .grain import farther, is_decided, is_torn, says_as_much
+from .grain import farther, is_decided, is_torn, note, says_as_much
 from .graph import Evidence, routed, run_passes
 from .graph.passes import ROUTED
 from .ink.unmixing import without_inks
@@ -116,8 +116,7 @@ def _seen_from_afar(
     for other, share in farther(settings):
         seen = trace(other).drawing()
         if says_as_much(seen, close, share):
-            note = f"The lines are grainy: traced from farther away (--grain {other.grain})."
-            return replace(seen, notes=(*seen.notes, note))
+            return replace(seen, notes=(*seen.notes, note(other)))
     return close
 
 
