@@ -22,6 +22,7 @@ from .centerline.mending import mended
 from .drawing import Drawing, Fill
 from .errors import Cancelled
 from .fills.solids import split_solids
+from .grain import farther, is_decided, is_torn, note, says_as_much
 from .graph import Evidence, routed, run_passes
 from .graph.passes import ROUTED
 from .ink.unmixing import without_inks
@@ -93,9 +94,30 @@ def vectorize(
         with clock("graph"):
             drawing = drawing_of_vectors(Path(source), settings or Settings(), vectorize)
     else:
-        trace = _Trace(source, page, settings or Settings(), turn, clock, kept, before)
-        drawing = trace.drawing()
+
+        def trace(settings: Settings) -> _Trace:
+            return _Trace(source, page, settings, turn, clock, kept, before)
+
+        settings = settings or Settings()
+        close = trace(replace(settings, grain="fine") if settings.grain == "auto" else settings)
+        alike = before is not None or not turn  # the frames of a sequence
+        scan = None if alike or is_decided(settings) else close.scan()
+        drawing = close.drawing()
+        if scan is not None and is_torn(drawing, scan):
+            drawing = _seen_from_afar(drawing, trace, settings)
+        drawing = replace(drawing, settings=settings)
     return drawing.with_seconds(clock.seconds)
+
+
+def _seen_from_afar(
+    close: Drawing, trace: Callable[[Settings], _Trace], settings: Settings
+) -> Drawing:
+    """The drawing of a grainy page from a place at which it is simpler, or the close one."""
+    for other, share in farther(settings):
+        seen = trace(other).drawing()
+        if says_as_much(seen, close, share):
+            return replace(seen, notes=(*seen.notes, note(other)))
+    return close
 
 
 class _Trace:
@@ -252,6 +274,7 @@ class _Clock:
     def __init__(self, progress: Progress | None) -> None:
         self.seconds: dict[str, float] = {}
         self._progress = progress
+        self._shown = 0.0
         self._stage = ""
 
     def __call__(self, stage: str) -> _Clock:
@@ -264,12 +287,14 @@ class _Clock:
         return self._tick
 
     def __exit__(self, *error: object) -> None:
-        self.seconds[self._stage] = perf_counter() - self._start
+        taken = perf_counter() - self._start
+        self.seconds[self._stage] = self.seconds.get(self._stage, 0.0) + taken
 
     def _tick(self, fraction: float) -> None:
         if self._progress:
-            begin = _BEGINS[self._stage]
-            self._progress(self._stage, min(1.0, begin + _SHARES[self._stage] * fraction))
+            done = min(1.0, _BEGINS[self._stage] + _SHARES[self._stage] * fraction)
+            self._shown = max(self._shown, done)  # a page that is looked at again is not begun anew
+            self._progress(self._stage, self._shown)
 
 
 __all__ = ["Cancelled", "FrameBefore", "KeptStages", "Progress", "Source", "vectorize"]
