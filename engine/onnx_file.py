@@ -1,6 +1,7 @@
 """What an ONNX file holds: the operations of a network and their weights.
 
-Reads the few protobuf fields that matter (https://protobuf.dev/programming-guides/encoding/,
+Reads and writes the few protobuf fields that matter
+(https://protobuf.dev/programming-guides/encoding/,
 https://github.com/onnx/onnx/blob/main/onnx/onnx.proto), so that whoever runs a network's weights in
 another way needs no library for it.
 """
@@ -17,6 +18,8 @@ from .values import Array
 
 _FLOATS = {1: "<f4", 10: "<f2"}  # data_type of a TensorProto -> of NumPy
 _OTHERS = {6: "<i4", 7: "<i8"}  # numbers that shapes and axes are made of
+_LISTS = frozenset({"kernel_shape", "strides", "pads", "dilations"})  # attributes that are several
+_VERSIONS = 8, 17  # of the file format and of the operations, as the shipped weights have them
 
 
 @dataclass(frozen=True)
@@ -147,3 +150,65 @@ def _node(message: memoryview) -> Node:
                     ints += _ints(content)
             attributes[name] = ints
     return Node(kind, inputs, outputs, attributes)
+
+
+def write(network: Network) -> bytes:
+    """The content of a file of convolutions: float32 weights, images of any size in and out.
+
+    Attributes must be whole numbers, as `read` gives them.
+    """
+    graph = [_message(1, _written_node(node)) for node in network.nodes]
+    graph += [_message(2, b"network")]
+    graph += [_message(5, _written_tensor(*item)) for item in network.weights.items()]
+    graph += [_message(11, _written_image(name)) for name in network.inputs]
+    graph += [_message(12, _written_image(name)) for name in network.outputs]
+    form, operations = _VERSIONS
+    # ModelProto: ir_version 1, graph 7, opset_import 8 (version 2)
+    return b"".join(
+        [_number(1, form), _message(7, b"".join(graph)), _message(8, _number(2, operations))]
+    )
+
+
+def _varint(value: int) -> bytes:
+    value &= (1 << 64) - 1  # negative ones as two's complement
+    out = bytearray()
+    while value > 0x7F:
+        out.append(value & 0x7F | 0x80)
+        value >>= 7
+    out.append(value)
+    return bytes(out)
+
+
+def _number(number: int, value: int) -> bytes:
+    return _varint(number << 3) + _varint(value)
+
+
+def _message(number: int, value: bytes | str) -> bytes:
+    content = value.encode() if isinstance(value, str) else value
+    return _varint(number << 3 | 2) + _varint(len(content)) + content
+
+
+def _written_node(node: Node) -> bytes:
+    fields = [_message(1, name) for name in node.inputs]
+    fields += [_message(2, name) for name in node.outputs]
+    fields += [_message(3, node.outputs[0]), _message(4, node.kind)]
+    for name, values in node.attributes.items():
+        several = name in _LISTS  # AttributeProto: type 20, of which 7 is INTS and 2 is INT
+        numbers = [_number(8 if several else 3, value) for value in values]
+        content = [_message(1, name), *numbers, _number(20, 7 if several else 2)]
+        fields.append(_message(5, b"".join(content)))
+    return b"".join(fields)
+
+
+def _written_tensor(name: str, values: Array) -> bytes:
+    dims = [_number(1, size) for size in values.shape]
+    raw = values.astype("<f4").tobytes()
+    return b"".join([*dims, _number(2, 1), _message(8, name), _message(9, raw)])
+
+
+def _written_image(name: str) -> bytes:
+    """A ValueInfoProto: one image of any channels and size, (1, C, H, W) float32."""
+    sizes = [_number(1, 1), *(_message(2, f"{name} {side}") for side in "chw")]
+    shape = b"".join(_message(1, size) for size in sizes)
+    tensor = _number(1, 1) + _message(2, shape)  # elem_type, shape
+    return _message(1, name) + _message(2, _message(1, tensor))

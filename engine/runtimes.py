@@ -17,6 +17,7 @@ from time import perf_counter, process_time
 
 import numpy as np
 
+from . import phases
 from .errors import InvoluteError
 from .values import Array
 
@@ -74,9 +75,13 @@ def _in_onnxruntime(content: bytes) -> Net:
 def _in_opencv(content: bytes) -> Net:
     import cv2
 
+    phased = phases.in_phases(content)
+    read = phased.content if phased else content
+    inward = phased.inputs if phased else {}
+    outward = phased.outputs if phased else {}
     try:
         # From memory: OpenCV can't open every path that Python can.
-        net = cv2.dnn.readNetFromONNX(np.frombuffer(content, np.uint8), engine=cv2.dnn.ENGINE_NEW)
+        net = cv2.dnn.readNetFromONNX(np.frombuffer(read, np.uint8), engine=cv2.dnn.ENGINE_NEW)
     except cv2.error as error:
         raise ValueError(str(error)) from error
     running = Lock()
@@ -85,9 +90,14 @@ def _in_opencv(content: bytes) -> Net:
     def infer(inputs: Mapping[str, Array], count: int) -> list[Array]:
         with running:  # a net holds the state of its last run
             for name, values in inputs.items():
-                net.setInput(values, name)
+                step = inward.get(name)
+                net.setInput(phases.apart(values, step) if step else values, name)
             # All outputs or the first: OpenCV takes no other selection.
-            return [net.forward()] if count == 1 else list(net.forward(names))[:count]
+            answers = [net.forward()] if count == 1 else net.forward(names)[:count]
+        return [
+            phases.together(answer, outward[name]) if name in outward else answer
+            for name, answer in zip(names, answers, strict=False)
+        ]
 
     return infer
 

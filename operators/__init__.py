@@ -21,6 +21,8 @@ _VERBS = (
     "tracing.trace_again",
     "tracing.import_scan",
     "tracing.paste",
+    "tracing.try_part",
+    "tracing.choose_part",
     "tracing.use_defaults",
     "tracing.use_preset",
     "sequences.trace_frames",
@@ -61,7 +63,7 @@ def register() -> None:
     from . import blender_command
     from .grease_pencil import saving
     from .junctions import lift_bias
-    from .tracing import background, trace_settings, use_defaults
+    from .tracing import background, part, trace_settings, use_defaults
     from .view import view_state
 
     for cls in _classes():
@@ -72,6 +74,7 @@ def register() -> None:
     lift_bias.register()
     saving.register()
     background.register()
+    part.register()
     use_defaults.register()
     blender_command.register()
 
@@ -83,11 +86,12 @@ def unregister() -> None:
     from . import blender_command
     from .grease_pencil import saving
     from .junctions import lift_bias
-    from .tracing import background, live, use_defaults
+    from .tracing import background, live, part, use_defaults
 
     live.unregister()
     blender_command.unregister()
     use_defaults.unregister()
+    part.unregister()
     background.unregister()
     saving.unregister()
     lift_bias.unregister()

@@ -19,7 +19,10 @@ class Job:
     stage, fraction: where it is, for progress bars; counts fill the places in `stage`.
     problem: the sentence that says why all of it failed.
     heard: is told of each picture that is done, by its name, and what became of it.
+    gives_way: another trace may take its place at any time.
     """
+
+    gives_way = False
 
     def __init__(self, stage: str) -> None:
         self.stage = stage

@@ -47,8 +47,8 @@ def steadied(drawing: Drawing, before: Sequence[Stroke]) -> Drawing:
     seen = [_Lines.of(before, motion) for motion in motions]
     both = [_Runs.of(drawing.graph, lines, pen) for lines in seen]
     lines, runs = max(zip(seen, both, strict=True), key=lambda found: len(found[1].half))
-    pairs = drawing.routing.pairs
-    said = _said(drawing.graph, pairs, runs, _MEET * pen)
+    pairs, score = drawing.routing.pairs, drawing.routing.pair_score
+    said = _said(drawing.graph, pairs, score, runs, pen)
     drawing = drawing.heard(HEARD * said)
     if drawing.pencil:  # its strokes are told by the numbers of branches
         return drawing
@@ -100,13 +100,19 @@ def _with_steps(drawing: Drawing, steps: list[Step]) -> Drawing:
 class _Lines:
     """Strokes as points about 1 px apart: (P, 2) px, which stroke (P,), px along it (P,).
 
-    around: (S,) px, the length of a closed stroke; infinite for an open one.
+    length: (S,) px. closed: (S,) bool.
     """
 
     points: Array
     stroke: Array
     way: Array
-    around: Array
+    length: Array
+    closed: Array
+
+    @property
+    def around(self) -> Array:
+        """(S,) px, the length of a closed stroke; infinite for an open one."""
+        return np.where(self.closed, np.maximum(self.length, 1e-6), np.inf)
 
     @staticmethod
     def of(strokes: Sequence[Stroke], motion: Array) -> _Lines:
@@ -128,14 +134,13 @@ class _Lines:
         way -= way[offsets[:-1]][stroke]
         along = way[earlier] * (1 - share[:, 0]) + way[index] * share[:, 0]
         closed = np.array([s.closed for s in strokes])
-        around = np.where(closed, np.maximum(way[offsets[1:] - 1], 1e-6), np.inf)
-        return _Lines(points, stroke[index], along, around)
+        return _Lines(points, stroke[index], along, way[offsets[1:] - 1], closed)
 
     def tips(self, arm: float) -> tuple[Array, Array]:
         """Both ends (2 S, 2) of open strokes, and where each stroke is `arm` px from them."""
-        first = np.searchsorted(self.stroke, np.arange(len(self.around)))
+        first = np.searchsorted(self.stroke, np.arange(len(self.closed)))
         last = np.append(first[1:], len(self.stroke)) - 1
-        keep = np.isinf(self.around) & (last > first)
+        keep = ~self.closed & (last > first)
         first, last = first[keep], last[keep]
         step = np.minimum(
             np.maximum(1, (last - first) * arm / np.maximum(self.way[last], arm)), last - first
@@ -151,6 +156,7 @@ class _Runs:
 
     half, stroke: (R,). start: (R,) px along the stroke, where the arm begins at its vertex.
     sense: (R,) 1 where the arm leads on along the stroke, else -1. around: as in `_Lines`.
+    behind: (R,) px of the stroke that lie behind the arm's beginning; infinite on a closed stroke.
     """
 
     half: Array
@@ -158,6 +164,7 @@ class _Runs:
     start: Array
     sense: Array
     around: Array
+    behind: Array
 
     @staticmethod
     def of(graph: PlanarGraph, lines: _Lines, pen: float) -> _Runs:
@@ -167,7 +174,9 @@ class _Runs:
         blocks = [arms.part(*block) for block in pairwise(stops.tolist())]
         found = [_on_strokes(block, lines, pen) for block in blocks]
         half, stroke, start, sense = (np.concatenate(column) for column in zip(*found, strict=True))
-        return _Runs(half, stroke, start, sense, lines.around)
+        behind = np.where(sense > 0, start, lines.length[stroke] - start)
+        behind[lines.closed[stroke]] = np.inf
+        return _Runs(half, stroke, start, sense, lines.around, behind)
 
 
 @dataclass(frozen=True, eq=False)
@@ -249,7 +258,7 @@ def _close(some: Array, others: Array, reach: float) -> tuple[Array, Array]:
     return a[near], b[near]
 
 
-def _said(graph: PlanarGraph, pairs: Array, runs: _Runs, meet: float) -> Array:
+def _said(graph: PlanarGraph, pairs: Array, score: Array, runs: _Runs, pen: float) -> Array:
     """(K,) of each pair: 1 one line in the frame before, -1 two lines, 0 nobody knows."""
     order = np.argsort(runs.half, kind="stable")
     starts = np.searchsorted(runs.half[order], np.arange(2 * graph.branch_count + 1))
@@ -263,10 +272,31 @@ def _said(graph: PlanarGraph, pairs: Array, runs: _Runs, meet: float) -> Array:
     gap = np.abs(runs.start[x] - runs.start[y])
     around = runs.around[runs.stroke[x]]
     gap = np.minimum(gap, np.abs(around - gap))
-    one = (runs.stroke[x] == runs.stroke[y]) & (runs.sense[x] != runs.sense[y]) & (gap <= meet)
+    one = (runs.stroke[x] == runs.stroke[y]) & (runs.sense[x] != runs.sense[y])
+    one &= gap <= _MEET * pen
     said = np.where(size > 0, -1.0, 0.0)
     said[pair[one]] = 1.0
+    said[_anew(graph, pairs, score, runs, many, pen)] = -1.0
     return said
+
+
+def _anew(
+    graph: PlanarGraph, pairs: Array, score: Array, runs: _Runs, many: Array, pen: float
+) -> Array:
+    """The pairs at corners where a stroke ended before, and where nothing was what goes on now.
+
+    Of what lies between two such corners one end is named alone, the less probable one: so it
+    goes with the other stroke, and is none of its own.
+    """
+    ended = np.zeros(len(many), bool)
+    ended[runs.half[runs.behind <= _OVER * pen]] = True
+    a, b = pairs.T
+    fresh = np.where(many[a] == 0, a, b)
+    known = np.where(many[a] == 0, b, a)
+    found = ended[known] & (many[fresh] == 0) & (graph.degrees[graph.half_vertex[a]] == 2)
+    rows = np.flatnonzero(found)
+    rows = rows[np.lexsort((score[rows], fresh[rows] >> 1))]
+    return rows[np.diff(fresh[rows] >> 1, prepend=-1) != 0]
 
 
 def _nearest(points: Array, places: Array, reach: float) -> Array:

@@ -11,7 +11,7 @@ from ..view.on_screen import places_on_page
 from ..view.picking import inside
 from ..view.view_state import make_current, places_of, shown_in, traced_in, view_of
 from .junction_operator import JunctionOperator
-from .path_gesture import PathGesture, as_items, path_property
+from .path_gesture import PathGesture, as_items, draw_box, path_property
 
 
 class INVOLUTE_OT_accept_inside(JunctionOperator, bpy.types.Operator):
@@ -58,14 +58,10 @@ class INVOLUTE_OT_lasso_accept(PathGesture, bpy.types.Operator):
         return {"CANCELLED"}
 
     def _add(self, context: bpy.types.Context, place: tuple[float, float]) -> None:
-        trail = view_of(context).trail
-        if self.box and len(trail):
-            (x, y), (right, top) = trail[0].loc, place
-            trail.clear()
-            for corner in ((x, y), (right, y), (right, top), (x, top)):
-                trail.add().loc = corner
-            place = (x, y)
-        super()._add(context, place)
+        if self.box and len(view_of(context).trail):
+            draw_box(context, place)
+        else:
+            super()._add(context, place)
 
 
 CLASSES = (INVOLUTE_OT_accept_inside, INVOLUTE_OT_lasso_accept)

@@ -81,6 +81,16 @@ class PathGesture(JunctionOperator):
         redraw(context)
 
 
+def draw_box(context: bpy.types.Context, corner: tuple[float, float]) -> None:
+    """Let the path be a box from where it began to a corner, px of the region."""
+    trail = view_of(context).trail
+    (x, y), (right, top) = trail[0].loc, corner
+    trail.clear()
+    for place in ((x, y), (right, y), (right, top), (x, top), (x, y)):
+        trail.add().loc = place
+    redraw(context)
+
+
 def path_property(description: str) -> object:
     """The property `path` of an operator that acts along one, px of the drawing."""
     return CollectionProperty(

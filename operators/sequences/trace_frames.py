@@ -18,7 +18,8 @@ from ..grease_pencil.stored_trace import Picture
 from ..language import message
 from ..tracing.background import JobOperator
 from ..tracing.file_choice import ChosenFiles, FileChoice, files_shown
-from ..tracing.placing import place_drawing, placing_values
+from ..tracing.placing import fits_camera, place_drawing, placing_values
+from ..tracing.scan_behind import pale, put_paper
 from ..tracing.settings_layout import draw_placing, draw_sequence, draw_settings
 from ..tracing.trace import make_active, new_object
 from ..tracing.trace_settings import (
@@ -179,6 +180,10 @@ class INVOLUTE_OT_trace_sequence(
         obj.matrix_world = matrix
         context.scene.collection.objects.link(obj)
         self._target = obj.name
+        if empty is not None and self.show_scan:
+            pale(empty)
+            if not fits_camera(context, self.place):
+                put_paper(obj, size, self._pixel_map)
         if self._in_sight(context):
             make_active(context, obj, outlined=False)
             context.view_layer.update()

@@ -2,6 +2,7 @@
 
 trace, import_scan, paste          the operators that trace
 trace_again, live                  the same picture again, in place; by itself if wanted
+choose_part, try_part, part        a part of it, to see what the settings do
 use_defaults, use_preset           settings at one click; new scenes begin with the defaults
 trace_settings, settings_layout    the engine's settings as properties, and how they are shown
 sources, file_choice               what there is to trace

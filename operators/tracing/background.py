@@ -19,20 +19,22 @@ _LAST_STEP = 5.0  # seconds that a trace is given to stop, where it looks up abo
 _AT_WORK = ("TRANSFORM_OT", "GREASE_PENCIL_OT", "SCULPT_OT", "PAINT_OT", "MESH_OT", "CURVE_OT")
 
 
-_waiting: list[tuple[bpy.types.Timer, bool]] = []
-"""The timer of the operator that waits, and whether it shows its progress; at most one."""
+_waiting: dict[jobs.Job, tuple[bpy.types.Timer, bool]] = {}
+"""The timers of the operators that wait, and whether they show progress. Of several, all but one
+have given way and will see it."""
 
 
-def _stop_waiting() -> None:
+def _stop_waiting(job: jobs.Job) -> None:
     """Take back what Blender would go on doing and showing."""
+    if job not in _waiting:
+        return
+    timer, shows_progress = _waiting.pop(job)
     manager = bpy.context.window_manager
-    for timer, shows_progress in _waiting:
-        manager.event_timer_remove(timer)
-        if shows_progress:
-            manager.progress_end()
-            for workspace in bpy.data.workspaces:
-                workspace.status_text_set(None)
-    _waiting.clear()
+    manager.event_timer_remove(timer)
+    if shows_progress:
+        manager.progress_end()
+        for workspace in bpy.data.workspaces:
+            workspace.status_text_set(None)
 
 
 def stage_of(job: jobs.Job) -> str:
@@ -68,18 +70,19 @@ class JobOperator:
         take_from_sidebar(self, context)
         if bpy.app.background:
             return self.execute(context)
-        if jobs.current is not None:
+        if jobs.current is not None and not jobs.current.gives_way:
             self.report({"ERROR"}, message("Another trace is running; wait for it or cancel it."))
             return {"CANCELLED"}
         self._job = self._begun(context)
         if self._job is None:
             return {"CANCELLED"}
+        jobs.abandon()
         jobs.current = self._job
         self._job.start()
         self._shown, self._repeats = "", False
         manager = context.window_manager
         timer = manager.event_timer_add(_TICK, window=context.window)
-        _waiting.append((timer, self.escape_cancels))
+        _waiting[self._job] = timer, self.escape_cancels
         if self.escape_cancels:
             manager.progress_begin(0, 100)
         manager.modal_handler_add(self)
@@ -144,7 +147,7 @@ class JobOperator:
         redraw_sidebars(context)
 
     def _stop(self, context: bpy.types.Context) -> None:
-        _stop_waiting()
+        _stop_waiting(self._job)
         if jobs.current is self._job:
             jobs.current = None
         redraw_sidebars(context)
@@ -201,7 +204,8 @@ def register() -> None:
 def unregister() -> None:
     """End what is running: nobody will be there to take it, and its files may be replaced."""
     jobs.abandon(_LAST_STEP)
-    _stop_waiting()
+    for job in list(_waiting):
+        _stop_waiting(job)
     bpy.app.handlers.load_pre.remove(_abandon)
 
 

@@ -65,7 +65,8 @@ class PlacingSettings:
         ),
         "show_scan": BoolProperty(
             name="Scan Behind",
-            description="Show the picture behind the strokes that were traced from it",
+            description="Show the picture, paled and on paper, behind the strokes that were traced "
+            "from it",
             default=True,
         ),
     }
@@ -85,7 +86,7 @@ def place_drawing(
         InvoluteError: there is no camera to fit to.
     """
     height = size[1] / pixels_per_metre if pixels_per_metre else _HEIGHT
-    if place == "CAMERA" or (place == "AUTO" and looks_through_camera(context)):
+    if fits_camera(context, place):
         height, matrix = _before_camera(context.scene, size)
     elif place == "PLANE":
         matrix = _drawing_plane(context)
@@ -93,6 +94,11 @@ def place_drawing(
         width = height * size[0] / size[1]
         matrix = Matrix.Translation((0.0, _before_others(context, width, height), 0.0))
     return front_view(size, height), matrix
+
+
+def fits_camera(context: bpy.types.Context, place: str) -> bool:
+    """Is a new drawing to fill the camera's view?"""
+    return place == "CAMERA" or (place == "AUTO" and looks_through_camera(context))
 
 
 def _before_others(context: bpy.types.Context, width: float, height: float) -> float:

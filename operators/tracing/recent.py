@@ -1,4 +1,4 @@
-"""What was traced last, so that Adjust Last Operation repeats only what a setting touches."""
+"""What was traced last, so that what is traced again repeats only what a setting touches."""
 
 from __future__ import annotations
 
@@ -17,26 +17,39 @@ if TYPE_CHECKING:
     from ...engine import Drawing
 
 _MAX_KEPT = 12  # drawings; a page of 1,000 strokes takes 2 MB
-KEPT_STAGES = KeptStages(256e6)  # bytes; five pages of 1024 px
-"""What `vectorize` made last, stage by stage: a changed setting runs only what it touches."""
-_kept: OrderedDict[tuple[str, str], Drawing] = OrderedDict()
 
 
-def recall(source: Source, settings: Settings) -> Drawing | None:
-    """The drawing of this very picture, with strokes as the settings want them; None = trace it."""
-    drawing = _kept.get(_key(source, settings))
-    if drawing is None:
-        return None
-    return drawing if drawing.settings == settings else drawing.restroked(settings)
+class Recent:
+    """The last drawings of some pictures.
+
+    stages: what `vectorize` made of them, stage by stage: a changed setting runs only what it
+        touches.
+    """
+
+    def __init__(self, most: float) -> None:
+        """most: bytes of all stages that are kept."""
+        self.stages = KeptStages(most)
+        self._kept: OrderedDict[tuple[str, str], Drawing] = OrderedDict()
+
+    def recall(self, source: Source, settings: Settings) -> Drawing | None:
+        """The drawing of this very picture, its strokes as the settings want them; None = trace
+        it."""
+        drawing = self._kept.get(_key(source, settings))
+        if drawing is None:
+            return None
+        return drawing if drawing.settings == settings else drawing.restroked(settings)
+
+    def remember(self, source: Source, settings: Settings, drawing: Drawing) -> None:
+        """Keep a drawing that was traced just now."""
+        key = _key(source, settings)
+        self._kept[key] = drawing
+        self._kept.move_to_end(key)
+        while len(self._kept) > _MAX_KEPT:
+            self._kept.popitem(last=False)
 
 
-def remember(source: Source, settings: Settings, drawing: Drawing) -> None:
-    """Keep a drawing that was traced just now."""
-    key = _key(source, settings)
-    _kept[key] = drawing
-    _kept.move_to_end(key)
-    while len(_kept) > _MAX_KEPT:
-        _kept.popitem(last=False)
+PAGES = Recent(256e6)  # five pages of 1024 px
+PARTS = Recent(64e6)  # of pages, that settings are tried on; they must not drive out the pages
 
 
 def _key(source: Source, settings: Settings) -> tuple[str, str]:

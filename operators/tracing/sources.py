@@ -80,6 +80,18 @@ def from_image(image: bpy.types.Image, empty: bpy.types.Object | None = None) ->
     return Source(name, _pixels(image), empty=shown_by, image=image.name)
 
 
+def is_image_empty(obj: bpy.types.Object | None) -> bool:
+    """Is it an Empty that shows an image?"""
+    import bpy
+
+    return (
+        obj is not None
+        and obj.type == "EMPTY"
+        and obj.empty_display_type == "IMAGE"
+        and isinstance(obj.data, bpy.types.Image)
+    )
+
+
 def noted(picture: Picture, name: str) -> Source:
     """A picture that was noted when it was traced.
 

@@ -17,10 +17,10 @@ from ..grease_pencil.writing import Into
 from ..language import message
 from ..view.framing import look_straight_at
 from ..view.view_state import view_of
-from . import sources
+from . import part, sources
 from .background import JobOperator
 from .file_choice import ChosenFiles
-from .placing import place_drawing
+from .placing import fits_camera, place_drawing
 from .scan_behind import put_behind
 from .settings_layout import draw_placing, draw_settings
 from .sources import Source
@@ -92,6 +92,7 @@ class INVOLUTE_OT_trace(JobOperator, ChosenFiles, PlacingOptions, TraceOptions, 
         done = [result for result in job.results if result.drawing is not None]
         failed = [result for result in job.results if result.drawing is None]
         if done:
+            part.show(None)  # all of it is there now
             self._write(context, done)
         else:
             problem = failed[0].problem if failed else job.problem
@@ -129,7 +130,7 @@ class INVOLUTE_OT_trace(JobOperator, ChosenFiles, PlacingOptions, TraceOptions, 
                 )
             return [sources.from_image(image)]
         empty = context.active_object
-        if not is_image_empty(empty):
+        if not sources.is_image_empty(empty):
             raise InvoluteError("Choose a picture file, or select an Empty that shows an image.")
         return [sources.from_image(empty.data, empty)]
 
@@ -183,7 +184,9 @@ class INVOLUTE_OT_trace(JobOperator, ChosenFiles, PlacingOptions, TraceOptions, 
         (context.collection or context.scene.collection).objects.link(obj)
         view_of(context).key = put(obj, result, frame, pixel_map, order=self.order)
         if self.show_scan:
-            put_behind(obj, result.source, size, pixel_map)
+            lies = state.pixel_map_in(obj.data)
+            paper = not fits_camera(context, self.place)
+            put_behind(obj, result.source, size, lies, paper=paper)
         return obj
 
 
@@ -193,16 +196,6 @@ def make_active(context: bpy.types.Context, obj: bpy.types.Object, *, outlined: 
         other.select_set(False)
     obj.select_set(outlined)
     context.view_layer.objects.active = obj
-
-
-def is_image_empty(obj: bpy.types.Object | None) -> bool:
-    """Is it an Empty that shows an image?"""
-    return (
-        obj is not None
-        and obj.type == "EMPTY"
-        and obj.empty_display_type == "IMAGE"
-        and isinstance(obj.data, bpy.types.Image)
-    )
 
 
 def new_object(name: str) -> bpy.types.Object:

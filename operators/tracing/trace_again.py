@@ -14,7 +14,7 @@ from ..grease_pencil.retracing import retrace
 from ..junctions.junction_operator import JunctionOperator
 from ..language import message
 from ..view.view_state import redraw, shown_in
-from . import sources
+from . import part, sources
 from .background import JobOperator
 from .settings_layout import draw_settings
 from .trace_job import TraceJob
@@ -86,6 +86,7 @@ class INVOLUTE_OT_trace_again(JobOperator, JunctionOperator, TraceOptions, bpy.t
         except InvoluteError as problem:
             self.report({"ERROR"}, message(problem))
             return {"CANCELLED"}
+        part.show(None)  # all of it is there now
         view = context.window_manager.involute_view
         view.key, view.junction, view.preview = done.key, -1, -1
         redraw(context)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from ...engine import Cancelled, InvoluteError, Settings
 from ..job import Job, unexpected
-from .recent import KEPT_STAGES, recall, remember
+from .recent import PAGES, Recent
 from .sources import Source
 
 if TYPE_CHECKING:
@@ -36,7 +36,9 @@ class TracedSource:
 
 
 class TraceJob(Job):
-    """Traces sources; results: what is done so far."""
+    """Traces sources; results: what is done so far. recent: where it is kept."""
+
+    recent: Recent = PAGES
 
     def __init__(self, sources: Sequence[Source], settings: Settings) -> None:
         super().__init__(STAGES["scan"])
@@ -71,12 +73,13 @@ class TraceJob(Job):
         from ...engine import vectorize
 
         try:
-            drawing = recall(source, self.settings)
+            drawing = self.recent.recall(source, self.settings)
             if drawing is None:
+                kept = self.recent.stages
                 drawing = vectorize(
-                    source.picture, self.settings, self._tick, page=source.page, kept=KEPT_STAGES
+                    source.picture, self.settings, self._tick, page=source.page, kept=kept
                 )
-                remember(source, self.settings, drawing)
+                self.recent.remember(source, self.settings, drawing)
         except (InvoluteError, Cancelled) as problem:
             return TracedSource(source, None, str(problem))
         except MemoryError:

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from math import pi
 from typing import TYPE_CHECKING
 
 import bpy
 import numpy as np
-from mathutils import Quaternion, Vector
+from mathutils import Matrix, Quaternion, Vector
 
 from .card_layout import Card
 from .on_screen import free_part_of
@@ -18,8 +17,6 @@ if TYPE_CHECKING:
 Array = np.ndarray
 
 _FILLED = 0.9  # of what is free of the viewport; the rest is margin
-# A drawing lies in the XZ plane of its object; so is it seen from the front.
-_FROM_THE_FRONT = Quaternion((1.0, 0.0, 0.0), pi / 2)
 
 
 def largest_view(
@@ -58,7 +55,7 @@ def look_straight_at(
     if view is None or looks_through_camera(context):
         return
     area, region, region_3d = view
-    turn = obj.matrix_world.to_quaternion() @ _FROM_THE_FRONT
+    turn = facing(obj.matrix_world, pixel_map)
     region_3d.view_perspective, region_3d.view_rotation = "ORTHO", turn
     region_3d.update()
     with context.temp_override(window=context.window, area=area, region=region):
@@ -71,6 +68,19 @@ def look_straight_at(
     middle, scale = fitted(places @ axes, free, (region.width, region.height))
     region_3d.view_distance *= seen / scale
     region_3d.view_location = Vector((axes @ middle).tolist())
+
+
+def facing(matrix: Matrix, pixel_map: PixelMap) -> Quaternion:
+    """The rotation of a view to which a page is upright, its left side at the left.
+
+    Args:
+        matrix: of the object that the page lies on, upright in it or flat as on an image Empty.
+    """
+    turn = np.array(matrix.to_3x3())
+    right, up = turn @ pixel_map.right, turn @ -pixel_map.down
+    eye = np.cross(right, up)
+    axes = np.column_stack([right, np.cross(eye, right), eye])
+    return Matrix((axes / np.linalg.norm(axes, axis=0)).tolist()).to_quaternion()
 
 
 def fitted(places: Array, free: Card, size: tuple[float, float]) -> tuple[Array, float]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
@@ -13,13 +13,30 @@ from .view_state import Shown, traced_in
 if TYPE_CHECKING:
     import bpy
 
+    from ..grease_pencil.core.pixel_map import PixelMap
+
 Mouse = tuple[float, float]
+
+
+class Lies(Protocol):
+    """A page in the scene: on which object, and where its pixels lie there."""
+
+    @property
+    def object(self) -> bpy.types.Object:
+        """The object."""
+        ...
+
+    @property
+    def pixel_map(self) -> PixelMap:
+        """Where its pixels lie."""
+        ...
+
 
 _JUNCTION_RADIUS, _LINE_RADIUS = 22.0, 16.0  # px of the screen, times the interface's scale
 _NEIGHBORS = 6  # junctions whose lines are looked at
 
 
-def places_on_screen(context: bpy.types.Context, shown: Shown, points: np.ndarray) -> np.ndarray:
+def places_on_screen(context: bpy.types.Context, shown: Lies, points: np.ndarray) -> np.ndarray:
     """Pixels of a drawing -> pixels of the region; NaN behind the eye."""
     region = context.region
     matrix = np.array(context.region_data.perspective_matrix) @ np.array(shown.object.matrix_world)
@@ -27,7 +44,7 @@ def places_on_screen(context: bpy.types.Context, shown: Shown, points: np.ndarra
     return project(places, matrix, region.width, region.height)
 
 
-def places_on_page(context: bpy.types.Context, shown: Shown, places: np.ndarray) -> np.ndarray:
+def places_on_page(context: bpy.types.Context, shown: Lies, places: np.ndarray) -> np.ndarray:
     """The way back: pixels of the region -> (N, 2) pixels of the drawing, on its plane."""
     region = context.region
     matrix = np.array(context.region_data.perspective_matrix) @ np.array(shown.object.matrix_world)
@@ -119,6 +136,25 @@ def cards_of(context: bpy.types.Context, shown: Shown) -> tuple[list[Card], floa
     lines = places_on_screen(context, shown, np.concatenate(parts))
     free = free_part_of(context)
     return layout(len(junction.alternatives), tuple(anchor), free, scale, lines)
+
+
+def viewport_under(
+    context: bpy.types.Context, mouse: Mouse
+) -> tuple[bpy.types.Area, bpy.types.Region] | None:
+    """The 3D viewport at a place of the window, px; None on its sidebar, toolbar and headers."""
+    for area in context.window.screen.areas:
+        if area.type != "VIEW_3D":
+            continue
+        there = {
+            region.type: region
+            for region in area.regions
+            if Card(region.x, region.y, region.width, region.height).holds(*mouse)
+            and min(region.width, region.height) > 1
+        }
+        window = there.pop("WINDOW", None)
+        if window is not None and not there.keys() - {"HUD"}:
+            return area, window
+    return None
 
 
 def free_part_of(context: bpy.types.Context) -> Card:

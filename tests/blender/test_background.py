@@ -94,7 +94,7 @@ def test_a_drawing_is_not_lost_with_its_camera(bpy, part, scan):
 
 def test_only_the_strokes_are_made_again(bpy, part, scan):
     """Adjust Last Operation with another smoothing: the same as a trace with it, at once."""
-    recent = part("operators.tracing.recent")
+    recent = part("operators.tracing.recent").PAGES
     recent._kept.clear()
     bpy.ops.involute.trace(filepath=str(scan))
     (first,) = recent._kept.values()
@@ -112,21 +112,66 @@ def test_only_the_strokes_are_made_again(bpy, part, scan):
 
 
 def test_the_scan_lies_behind_its_strokes(bpy, part, scan):
+    """Paled, on paper that hides what stands behind; both exactly where the page is."""
+    behind = part("operators.tracing.scan_behind")
+    maps = part("operators.grease_pencil.core.pixel_map")
     bpy.ops.involute.trace(filepath=str(scan))
     obj = bpy.data.objects["lines"]
-    empty = part("operators.tracing.scan_behind").scan_of(obj)
-    assert empty.parent == obj
-    assert empty.hide_select
+    empty, paper = behind.scan_of(obj), behind.paper_of(obj)
+    assert empty.use_empty_image_alpha
+    assert 0 < empty.color[3] < 1
+    assert not paper.use_empty_image_alpha
     bpy.context.view_layer.update()
-    on_empty = part("operators.grease_pencil.core.pixel_map").on_empty(empty, (160, 120))
     corners = np.array([[0, 0], [160, 0], [160, 120]])
-    places = np.c_[on_empty.to_object(corners), np.ones(3)] @ np.array(empty.matrix_world).T
-    front = part("operators.grease_pencil.core.pixel_map").front_view((160, 120))
-    np.testing.assert_allclose(places[:, [0, 2]], front.to_object(corners)[:, [0, 2]], atol=1e-5)
-    assert (places[:, 1] > 0).all()
-    assert (places[:, 1] < 0.01).all()
+    front = maps.front_view((160, 120)).to_object(corners)
+    depths = []
+    for one in (empty, paper):
+        assert one.parent == obj
+        assert one.hide_select
+        width, height = one.data.size
+        own = maps.on_empty(one, (width, height)).to_object(corners * (width / 160, height / 120))
+        places = np.c_[own, np.ones(3)] @ np.array(one.matrix_world).T
+        np.testing.assert_allclose(places[:, [0, 2]], front[:, [0, 2]], atol=1e-5)
+        depths.append(places[:, 1])
+    assert (depths[0] > 0).all()
+    assert (depths[0] < depths[1]).all()
+    assert (depths[1] < 0.01).all()
     bpy.ops.involute.trace(filepath=str(scan), show_scan=False)
-    assert part("operators.tracing.scan_behind").scan_of(bpy.context.active_object) is None
+    assert behind.scan_of(bpy.context.active_object) is None
+    assert behind.paper_of(bpy.context.active_object) is None
+
+
+def test_a_camera_sees_what_it_saw(bpy, part, scan):
+    """What the artist has behind a drawing that fills the camera's view is not covered."""
+    behind = part("operators.tracing.scan_behind")
+    camera = bpy.data.objects.new("Camera", bpy.data.cameras.new("Camera"))
+    bpy.context.collection.objects.link(camera)
+    bpy.context.scene.camera = camera
+    bpy.ops.involute.trace(filepath=str(scan), place="CAMERA")
+    assert behind.scan_of(bpy.context.active_object) is not None
+    assert behind.paper_of(bpy.context.active_object) is None
+
+
+def test_an_empty_that_is_traced_is_paled(bpy, part, scan):
+    behind = part("operators.tracing.scan_behind")
+    empty = bpy.data.objects.new("Reference", None)
+    empty.empty_display_type, empty.data = "IMAGE", bpy.data.images.load(str(scan))
+    empty.rotation_euler = (1.2, 0.1, 0.4)
+    bpy.context.collection.objects.link(empty)
+    bpy.context.view_layer.objects.active = empty
+    bpy.context.view_layer.update()
+    bpy.ops.involute.trace()
+    obj = bpy.context.active_object
+    assert behind.scan_of(obj) == empty
+    assert behind.paper_of(obj).parent == obj
+    assert empty.use_empty_image_alpha
+    pale = empty.color[3]
+    assert pale < 0.5
+    empty.color[3] = 0.8  # by the slider
+    bpy.context.view_layer.objects.active = empty
+    bpy.ops.involute.trace()
+    assert empty.color[3] == pytest.approx(0.8)
+    assert len([one for one in bpy.data.images if "Paper" in one.name]) == 1
 
 
 def test_a_drawing_stands_before_what_is_there(bpy, part, scan):

@@ -138,3 +138,21 @@ def test_a_click_beside_the_lines_keeps_the_drawing_in_the_sidebar(bpy, part, tm
     bpy.context.view_layer.objects.active = bpy.data.objects["Cube"]
     bpy.context.view_layer.update()
     assert view_state.shown_in(bpy.context) is None
+
+
+@pytest.mark.parametrize("flat", [False, True])
+def test_the_view_faces_the_page(part, flat):
+    """Also one that lies on an image Empty, flat in its object."""
+    from mathutils import Matrix, Vector
+
+    framing = part("operators.view.framing")
+    maps = part("operators.grease_pencil.core.pixel_map")
+    lies = maps.front_view((160, 120))
+    if flat:
+        right, up = np.array([0.01, 0, 0]), np.array([0, 0.01, 0])
+        lies = maps.PixelMap(np.zeros(3), right, -up)
+    stands = Matrix.LocRotScale((1, 2, 3), Matrix.Rotation(0.7, 3, "Z"), (2, 2, 2))
+    matrix = stands @ Matrix.Rotation(np.pi / 2, 4, "X") if flat else stands
+    turn = np.array(framing.facing(matrix, lies).to_matrix())
+    right, up, eye = (np.array(stands.to_3x3() @ Vector(v)) / 2 for v in np.eye(3)[[0, 2, 1]])
+    np.testing.assert_allclose(turn, np.column_stack([right, up, -eye]), atol=1e-6)

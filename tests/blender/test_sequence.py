@@ -114,6 +114,10 @@ def test_an_empty_that_plays_a_sequence(bpy, part, quick, tmp_path):
     obj = quick()
     assert [frame for frame, _ in keyframes(obj)["Black"]] == [11, 12, 13]
     assert tuple(obj.matrix_world.translation) == (1, 2, 3)
+    behind = part("operators.tracing.scan_behind")  # its strokes stand out on it
+    assert behind.scan_of(obj) == empty
+    assert empty.use_empty_image_alpha
+    assert behind.paper_of(obj) is not None
 
 
 def test_an_empty_that_plays_a_movie(bpy, part, quick, tmp_path):

@@ -284,9 +284,6 @@ TEXTS = {
         "Debout à l'origine du monde, devant ce qui s'y trouve"
     ),
     "Scan Behind": "Image derrière",
-    "Show the picture behind the strokes that were traced from it": (
-        "Montrer derrière les traits l'image dont ils sont tirés"
-    ),
     "Where It Goes": "Où cela va",
     "Scan": "Numérisation",
     "Fit to Camera": "Ajuster à la caméra",
@@ -894,4 +891,47 @@ TEXTS = {
         "Placer ce qui se tient et qui est plus petit que tant de largeurs de plume, comme "
         "du lettrage, sur des calques à part ; 0 ne le fait pas"
     ),
+    # a part of a page
+    "Drag a box over the scan to see what the settings do there; each change shows at once": (
+        "Tracer un cadre sur le scan pour voir ce que font les réglages ; chaque changement "
+        "se montre aussitôt"
+    ),
+    "Try on a Part": "Essayer sur une partie",
+    "Drag a box over the scan, or click it; Esc leaves": (
+        "Tracer un cadre sur le scan, ou cliquer dessus ; Échap annule"
+    ),
+    "Drag a box over the picture.": "Tracer un cadre sur l'image.",
+    "Select an image Empty, or a drawing that was traced.": (
+        "Sélectionner un Empty image, ou un dessin vectorisé."
+    ),
+    "The picture isn't as large as what you see of it; trace it as a new object.": (
+        "L'image n'a pas la taille de ce qu'on en voit ; la vectoriser dans un nouvel objet."
+    ),
+    "The lines of an SVG are taken as they are; there is no scan.": (
+        "Les lignes d'un SVG sont prises telles quelles ; il n'y a pas de scan."
+    ),
+    "Trace a part of the picture with the settings of the sidebar, to see what they do": (
+        "Vectoriser une partie de l'image avec les réglages de la barre latérale, pour voir "
+        "ce qu'ils font"
+    ),
+    "Trace a Part": "Vectoriser une partie",
+    "Left, top, right and bottom of the part, in pixels of the scan; the part that is "
+    "shown already, if it isn't given": (
+        "Gauche, haut, droite et bas de la partie, en pixels du scan ; sans cela, la partie "
+        "déjà montrée"
+    ),
+    "Take the traced part away; nothing of it stays": (
+        "Enlever la partie vectorisée ; il n'en reste rien"
+    ),
+    "Remove": "Enlever",
+    "Make a Grease Pencil object of the traced part": (
+        "Faire un objet Grease Pencil de la partie vectorisée"
+    ),
+    "Keep as Object": "Garder comme objet",
+    "Part: {count} strokes": "Partie : {count} traits",
+    # paper
+    "Show the picture, paled and on paper, behind the strokes that were traced from it": (
+        "Montrer l'image, pâlie et sur papier, derrière les traits vectorisés"
+    ),
+    "Paper": "Papier",
 }

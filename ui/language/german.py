@@ -298,9 +298,6 @@ TEXTS = {
         "Aufrecht am Ursprung der Welt, vor dem, was dort steht"
     ),
     "Scan Behind": "Scan dahinter",
-    "Show the picture behind the strokes that were traced from it": (
-        "Das Bild hinter den Strichen zeigen, die daraus nachgezogen wurden"
-    ),
     "Where It Goes": "Wohin es kommt",
     "Scan": "Scan",
     "Fit to Camera": "In die Kamera einpassen",
@@ -938,4 +935,48 @@ TEXTS = {
         "Was zusammenhängt und kleiner ist als so viele Strichbreiten, etwa Schrift, auf "
         "eigene Ebenen legen; 0 tut es nicht"
     ),
+    # a part of a page
+    "Drag a box over the scan to see what the settings do there; each change shows at once": (
+        "Einen Rahmen über den Scan ziehen und sehen, was die Einstellungen dort tun; jede "
+        "Änderung zeigt sich sofort"
+    ),
+    "Try on a Part": "An einem Teil probieren",
+    "Drag a box over the scan, or click it; Esc leaves": (
+        "Einen Rahmen über den Scan ziehen oder ihn anklicken; Esc bricht ab"
+    ),
+    "Drag a box over the picture.": "Einen Rahmen über das Bild ziehen.",
+    "Select an image Empty, or a drawing that was traced.": (
+        "Ein Bild-Empty oder eine nachgezogene Zeichnung auswählen."
+    ),
+    "The picture isn't as large as what you see of it; trace it as a new object.": (
+        "Das Bild ist nicht so groß wie das, was davon zu sehen ist; es als neues Objekt "
+        "nachziehen."
+    ),
+    "The lines of an SVG are taken as they are; there is no scan.": (
+        "Die Linien eines SVG werden genommen, wie sie sind; es gibt keinen Scan."
+    ),
+    "Trace a part of the picture with the settings of the sidebar, to see what they do": (
+        "Einen Teil des Bildes mit den Einstellungen der Seitenleiste nachziehen und sehen, "
+        "was sie tun"
+    ),
+    "Trace a Part": "Einen Teil nachziehen",
+    "Left, top, right and bottom of the part, in pixels of the scan; the part that is "
+    "shown already, if it isn't given": (
+        "Links, oben, rechts und unten des Teils, in Pixeln des Scans; ohne Angabe der Teil, "
+        "der schon zu sehen ist"
+    ),
+    "Take the traced part away; nothing of it stays": (
+        "Den nachgezogenen Teil wegnehmen; nichts davon bleibt"
+    ),
+    "Remove": "Entfernen",
+    "Make a Grease Pencil object of the traced part": (
+        "Aus dem nachgezogenen Teil ein Grease-Pencil-Objekt machen"
+    ),
+    "Keep as Object": "Als Objekt behalten",
+    "Part: {count} strokes": "Teil: {count} Striche",
+    # paper
+    "Show the picture, paled and on paper, behind the strokes that were traced from it": (
+        "Das Bild, blass und auf Papier, hinter den Strichen zeigen, die aus ihm nachgezogen wurden"
+    ),
+    "Paper": "Papier",
 }

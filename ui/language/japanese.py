@@ -279,9 +279,6 @@ TEXTS = {
         "ワールド原点に立て、そこにあるものの手前に置きます"
     ),
     "Scan Behind": "背後にスキャン",
-    "Show the picture behind the strokes that were traced from it": (
-        "トレースした元の画像をストロークの背後に表示します"
-    ),
     "Where It Goes": "置き場所",
     "Scan": "スキャン",
     "Fit to Camera": "カメラに合わせる",
@@ -866,4 +863,41 @@ TEXTS = {
         "つながっていてペン幅のこの倍数より小さいもの (文字など) "
         "を別のレイヤーに置く。0 では置かない"
     ),
+    # a part of a page
+    "Drag a box over the scan to see what the settings do there; each change shows at "
+    "once": "スキャン上で枠をドラッグすると、設定の効果がそこに表示される。変更はすぐに反映される",
+    "Try on a Part": "一部で試す",
+    "Drag a box over the scan, or click it; Esc leaves": (
+        "スキャン上で枠をドラッグするかクリック。Esc で中止"
+    ),
+    "Drag a box over the picture.": "画像の上で枠をドラッグしてください。",
+    "Select an image Empty, or a drawing that was traced.": (
+        "画像エンプティか、トレースした絵を選択してください。"
+    ),
+    "The picture isn't as large as what you see of it; trace it as a new object.": (
+        "画像の大きさが表示されているものと違います。新しいオブジェクトとしてトレースしてください。"
+    ),
+    "The lines of an SVG are taken as they are; there is no scan.": (
+        "SVG の線はそのまま使われます。スキャンはありません。"
+    ),
+    "Trace a part of the picture with the settings of the sidebar, to see what they do": (
+        "サイドバーの設定で画像の一部をトレースし、その効果を見る"
+    ),
+    "Trace a Part": "一部をトレース",
+    "Left, top, right and bottom of the part, in pixels of the scan; the part that is "
+    "shown already, if it isn't given": (
+        "一部の左、上、右、下 (スキャンのピクセル)。指定しなければ、すでに表示されている一部"
+    ),
+    "Take the traced part away; nothing of it stays": ("トレースした一部を取り除く。何も残らない"),
+    "Remove": "取り除く",
+    "Make a Grease Pencil object of the traced part": (
+        "トレースした一部をグリースペンシルオブジェクトにする"
+    ),
+    "Keep as Object": "オブジェクトとして残す",
+    "Part: {count} strokes": "一部: {count} ストローク",
+    # paper
+    "Show the picture, paled and on paper, behind the strokes that were traced from it": (
+        "トレース元の画像を、薄くして紙の上で、ストロークの後ろに表示する"
+    ),
+    "Paper": "紙",
 }

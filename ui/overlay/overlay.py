@@ -20,6 +20,7 @@ from . import cards
 from .colors import Color
 from .drawn_batches import forget, kept
 from .overlay_geometry import rings, routes
+from .part_overlay import draw_part
 from .stroke_overlay import draw_strokes
 
 if TYPE_CHECKING:
@@ -36,7 +37,10 @@ def draw_rings_and_routes() -> None:
     """POST_VIEW: everything that lies in the drawing's plane."""
     context = bpy.context
     _seen.clear()
-    if not _is_on(context):
+    if not _in_viewport(context):
+        return
+    draw_part(context)
+    if not view_of(context).show_overlay:
         return
     for shown in traced_in(context):
         with gpu.matrix.push_pop():
@@ -52,11 +56,13 @@ def draw_rings_and_routes() -> None:
 def draw_labels() -> None:
     """POST_PIXEL: letters, cards and the path of a drag."""
     context = bpy.context
-    if not _is_on(context) or context.region_data is None:
+    if not _in_viewport(context) or context.region_data is None:
         return
     trail = places_of(view_of(context).trail)
     if len(trail) > 1:
         cards.draw_trail(trail)
+    if not view_of(context).show_overlay:
+        return
     shown = _seen.pop(context.region.as_pointer(), None)
     if shown is not None:
         cards.draw(context, shown)
@@ -84,14 +90,10 @@ def pen_width(drawing: Drawing) -> float:
     return float(np.median(widths)) if widths is not None and len(widths) else 3.0
 
 
-def _is_on(context: bpy.types.Context) -> bool:
+def _in_viewport(context: bpy.types.Context) -> bool:
+    """Is this a 3D viewport that shows overlays?"""
     space = context.space_data
-    return (
-        view_of(context).show_overlay
-        and space is not None
-        and space.type == "VIEW_3D"
-        and space.overlay.show_overlays
-    )
+    return space is not None and space.type == "VIEW_3D" and space.overlay.show_overlays
 
 
 def _draw_rings(context: bpy.types.Context, shown: Shown) -> None:

@@ -12,7 +12,8 @@ from ...operators.sequences.trace_frames import (
 from ...operators.tracing.file_choice import TRACED
 from ...operators.tracing.import_scan import INVOLUTE_OT_import_scan
 from ...operators.tracing.paste import INVOLUTE_OT_paste
-from ...operators.tracing.trace import INVOLUTE_OT_trace, is_image_empty
+from ...operators.tracing.sources import is_image_empty
+from ...operators.tracing.trace import INVOLUTE_OT_trace
 
 
 class INVOLUTE_FH_scan(bpy.types.FileHandler):

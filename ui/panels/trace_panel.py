@@ -16,17 +16,21 @@ from ...operators.sequences.trace_frames import (
     INVOLUTE_OT_import_sequence,
     INVOLUTE_OT_trace_sequence,
 )
+from ...operators.tracing import part as parts
 from ...operators.tracing.background import INVOLUTE_OT_cancel, stage_of
+from ...operators.tracing.choose_part import INVOLUTE_OT_choose_part
 from ...operators.tracing.import_scan import INVOLUTE_OT_import_scan
 from ...operators.tracing.paste import INVOLUTE_OT_paste
-from ...operators.tracing.scan_behind import scan_of
+from ...operators.tracing.scan_behind import paper_of, scan_of
 from ...operators.tracing.settings_layout import draw_placing, draw_settings
-from ...operators.tracing.trace import INVOLUTE_OT_trace, is_image_empty
+from ...operators.tracing.sources import is_image_empty
+from ...operators.tracing.trace import INVOLUTE_OT_trace
 from ...operators.tracing.trace_again import (
     INVOLUTE_OT_take_settings,
     INVOLUTE_OT_trace_again,
 )
 from ...operators.tracing.trace_settings import as_values, scene_settings
+from ...operators.tracing.try_part import INVOLUTE_OT_drop_part, INVOLUTE_OT_keep_part
 from ...operators.tracing.use_defaults import INVOLUTE_OT_use_defaults
 from ...operators.view.view_state import Shown, shown_in
 from .presets import draw_preset_menu
@@ -52,8 +56,9 @@ class INVOLUTE_PT_trace(bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         """Buttons, or the progress; and the settings, which *Live* goes on asking for meanwhile."""
         layout, settings = self.layout, scene_settings(context.scene)
-        if jobs.current is None:
+        if jobs.current is None or jobs.current.gives_way:
             _what_to_trace(layout.column(), context, settings)
+            _part(layout.column(align=True), context)
         else:
             job = jobs.current
             layout.progress(factor=job.fraction, text=stage_of(job), translate=False)
@@ -84,6 +89,28 @@ def _what_to_trace(
     row.operator(INVOLUTE_OT_paste.bl_idname, text="", icon="PASTEDOWN")
     said = "Trace Sequence..."
     _button(column, INVOLUTE_OT_import_sequence, settings, said, "RENDER_ANIMATION")
+
+
+def _part(column: bpy.types.UILayout, context: bpy.types.Context) -> None:
+    """Trying the settings on a part; always as high, so that nothing moves while it is traced."""
+    part = parts.current(context)
+    column.operator(INVOLUTE_OT_choose_part.bl_idname, icon="SELECT_SET", depress=part is not None)
+    if part is None:
+        return
+    row = column.row(align=True)
+    if jobs.current is not None:
+        row.progress(factor=jobs.current.fraction, text=stage_of(jobs.current), translate=False)
+    else:
+        row.label(text=_said_of(part), icon="ERROR" if part.problem else "NONE", translate=False)
+    row.operator(INVOLUTE_OT_keep_part.bl_idname, text="", icon="GREASEPENCIL")
+    row.operator(INVOLUTE_OT_drop_part.bl_idname, text="", icon="X")
+
+
+def _said_of(part: parts.Part) -> str:
+    """What came out, in one line."""
+    if part.drawing is None:
+        return message(part.problem)
+    return label("Part: {count} strokes", count=len(part.drawing.strokes))
 
 
 class INVOLUTE_PT_summary(bpy.types.Panel):
@@ -139,11 +166,17 @@ class INVOLUTE_PT_summary(bpy.types.Panel):
             column = self.layout.column(align=True)
             column.operator(INVOLUTE_OT_merge_lines.bl_idname, icon="AUTOMERGE_ON")
             column.operator(INVOLUTE_OT_split_line.bl_idname, icon="MOD_EDGESPLIT")
-        scan = scan_of(shown.object)
-        if scan is not None:
-            row = self.layout.row(align=True)
-            row.prop(scan, "color", index=3, text="Scan", slider=True)
-            row.prop(scan, "hide_viewport", text="")
+        _behind(self.layout.row(align=True), shown.object)
+
+
+def _behind(row: bpy.types.UILayout, obj: bpy.types.Object) -> None:
+    """How strongly the scan shows; and whether the paper under it does."""
+    scan, paper = scan_of(obj), paper_of(obj)
+    if scan is not None:
+        row.prop(scan, "color", index=3, text="Scan", slider=True)
+        row.prop(scan, "hide_viewport", text="")
+    if paper is not None:
+        row.prop(paper, "hide_viewport", text="" if scan else "Paper", icon="FILE_BLANK")
 
 
 def draw_sentence(layout: bpy.types.UILayout, sentence: str, icon: str) -> None:

@@ -42,6 +42,10 @@ class PixelMap:
         axes = np.stack([self.right, self.down], 1)
         return (np.asarray(places, np.float64) - self.origin) @ np.linalg.pinv(axes).T
 
+    def moved(self, x: float, y: float) -> PixelMap:
+        """The map of a part of the page whose top left corner is the pixel (x, y)."""
+        return PixelMap(self.origin + x * self.right + y * self.down, self.right, self.down)
+
     def as_list(self) -> list[float]:
         """Nine numbers to store."""
         return [float(v) for v in (*self.origin, *self.right, *self.down)]
