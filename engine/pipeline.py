@@ -22,7 +22,7 @@ from .centerline.mending import mended
 from .drawing import Drawing, Fill
 from .errors import Cancelled
 from .fills.solids import split_solids
-from .grain import farther, is_decided, is_torn, note, says_as_much
+from .grain import is_decided, is_torn, note, simplest
 from .graph import Evidence, routed, run_passes
 from .graph.passes import ROUTED
 from .ink.unmixing import without_inks
@@ -99,25 +99,44 @@ def vectorize(
             return _Trace(source, page, settings, turn, clock, kept, before)
 
         settings = settings or Settings()
-        close = trace(replace(settings, grain="fine") if settings.grain == "auto" else settings)
         alike = before is not None or not turn  # the frames of a sequence
-        scan = None if alike or is_decided(settings) else close.scan()
-        drawing = close.drawing()
-        if scan is not None and is_torn(drawing, scan):
-            drawing = _seen_from_afar(drawing, trace, settings)
-        drawing = replace(drawing, settings=settings)
+        grain = "fine"
+        if alike or is_decided(settings):
+            drawing = trace(_closely(settings)).drawing()
+        else:
+            drawing, grain = _seen_well(trace, settings)
+        notes = drawing.notes if grain == "fine" else (*drawing.notes, note(grain))
+        drawing = replace(drawing, settings=settings, notes=notes)
     return drawing.with_seconds(clock.seconds)
 
 
-def _seen_from_afar(
-    close: Drawing, trace: Callable[[Settings], _Trace], settings: Settings
-) -> Drawing:
-    """The drawing of a grainy page from a place at which it is simpler, or the close one."""
-    for other, share in farther(settings):
-        seen = trace(other).drawing()
-        if says_as_much(seen, close, share):
-            return replace(seen, notes=(*seen.notes, note(other)))
-    return close
+def grain_of(source: Source, settings: Settings, page: int = 0) -> str:
+    """The value of `Settings.grain` that suits a page, for it and for all like it.
+
+    Raises:
+        InvoluteError: the source can't be read.
+    """
+    if is_decided(settings) or is_vector(source):
+        return settings.grain
+
+    def trace(settings: Settings) -> _Trace:
+        return _Trace(source, page, settings, False, _Clock(None), None)
+
+    return _seen_well(trace, settings)[1]
+
+
+def _seen_well(trace: Callable[[Settings], _Trace], settings: Settings) -> tuple[Drawing, str]:
+    """The drawing of a page, seen from farther away where its lines are torn, and its grain."""
+    close = trace(_closely(settings))
+    scan, drawing = close.scan(), close.drawing()
+    if not is_torn(drawing, scan):
+        return drawing, "fine"
+    return simplest(drawing, lambda grain: trace(replace(settings, grain=grain)).drawing())
+
+
+def _closely(settings: Settings) -> Settings:
+    """Without a choice of its own a page is looked at from close by."""
+    return replace(settings, grain="fine") if settings.grain == "auto" else settings
 
 
 class _Trace:
@@ -297,4 +316,4 @@ class _Clock:
             self._progress(self._stage, self._shown)
 
 
-__all__ = ["Cancelled", "FrameBefore", "KeptStages", "Progress", "Source", "vectorize"]
+__all__ = ["Cancelled", "FrameBefore", "KeptStages", "Progress", "Source", "grain_of", "vectorize"]

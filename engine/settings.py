@@ -244,11 +244,12 @@ class Settings:
         ("fine", "Fine", "As close as the pen is wide: ink, markers, clean pencil"),
         ("medium", "Medium", "At 0.7 of that size: soft pencil, crayon"),
         ("coarse", "Coarse", "At 0.55 of that size: charcoal, chalk, rough paper"),
+        ("coarsest", "Coarsest", "At 0.4 of that size: what falls to shreds even so"),
         group=WHAT,
         stage="scan",
         label="Grain",
         tip="From how far the page is looked at, so that grainy lines are whole",
-        more="Frames of a sequence are looked at alike: there, automatic is fine",
+        more="The frames of a sequence are looked at as suits the first of them",
     )
     min_length: float = _number(
         1.0,

@@ -26,7 +26,7 @@ from .sheet import Sheet, find_sheet, without_surroundings
 from .straightening import askew, corners_of, straightened
 
 # Shares of its size at which a page is read, by `Settings.grain`; see `engine.grain`.
-SEEN_AT = {"auto": 1.0, "fine": 1.0, "medium": 0.7, "coarse": 0.55}
+SEEN_AT = {"auto": 1.0, "fine": 1.0, "medium": 0.7, "coarse": 0.55, "coarsest": 0.4}
 _PEN_RANGE = (1.5, 8.0)  # working px; pens within stay as they are
 _PEN_TARGET = (2.5, 6.0)  # what thinner and thicker ones are brought to
 _PLENTY, _ENOUGH = 4e6, 4.0  # px of a page above which pens as wide as this will do

@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
+import cv2
 import numpy as np
 import pytest
+from involute.command import trace_sequence
 from involute.engine import Settings, vectorize
 from involute.engine.grain import is_decided, is_torn
+from involute.engine.pipeline import grain_of
 from involute.engine.scan import read_scan
+from involute.engine.sequence.frames import number_frames
 from involute.engine.values import Stroke
 from involute.synthesis.media import MEDIA, draw, sample
 
@@ -108,3 +114,21 @@ def test_a_pen_width_is_of_the_page_as_it_is(charcoal: np.ndarray, pen: float) -
     far = read_scan(charcoal, Settings(pen_width=pen, grain="coarse"))
     assert far.scale == pytest.approx(close.scale / 0.55)
     assert far.pen_width * far.scale == pytest.approx(close.pen_width * close.scale, rel=0.5)
+
+
+def test_a_sequence_is_looked_at_as_suits_its_first_frame(
+    charcoal: np.ndarray, tmp_path: Path
+) -> None:
+    pen = page("technical pen", 3.0)
+    for name, picture in (("a1", charcoal), ("a2", pen), ("b1", pen), ("b2", charcoal)):
+        cv2.imwrite(str(tmp_path / f"{name}.png"), picture)
+    for first, grain in (("a", "coarse"), ("b", "fine")):
+        frames = number_frames(sorted(map(str, tmp_path.glob(f"{first}?.png"))))
+        drawings = [drawing for _, drawing in trace_sequence(frames, jobs=1)]
+        assert [drawing.settings.grain for drawing in drawings] == [grain, grain]
+        assert len(drawings[0].strokes) == (4 if first == "a" else 5)
+
+
+def test_what_says_how_it_is_seen_is_kept_to(charcoal: np.ndarray) -> None:
+    assert grain_of(charcoal, Settings()) == "coarse"
+    assert grain_of(charcoal, Settings(grain="medium")) == "medium"

@@ -148,6 +148,10 @@ TEXTS = {
     "The lines are grainy: traced from farther away (--grain {0}).": (
         "Les traits sont grenus : tracé de plus loin (--grain {0})."
     ),
+    "Coarsest": "Le plus grossier",
+    "At 0.4 of that size: what falls to shreds even so": (
+        "À 0,4 de cette taille : ce qui reste en lambeaux malgré tout"
+    ),
     "Lean Network": "Réseau léger",
     "Smaller, in two thirds of the time; cuts grainy lines more": (
         "Plus petit, en deux tiers du temps ; coupe davantage les traits granuleux"

@@ -156,6 +156,10 @@ TEXTS = {
     "The lines are grainy: traced from farther away (--grain {0}).": (
         "Die Linien sind körnig: aus größerer Entfernung nachgezeichnet (--grain {0})."
     ),
+    "Coarsest": "Gröbstes",
+    "At 0.4 of that size: what falls to shreds even so": (
+        "Bei 0,4 dieser Größe: was auch so noch in Fetzen kommt"
+    ),
     "Lean Network": "Schlankes Netz",
     "Smaller, in two thirds of the time; cuts grainy lines more": (
         "Ein kleineres in zwei Dritteln der Zeit; zerlegt körnige Linien öfter"

@@ -146,6 +146,10 @@ TEXTS = {
     "The lines are grainy: traced from farther away (--grain {0}).": (
         "線が粗いため、遠くから見てトレースしました（--grain {0}）。"
     ),
+    "Coarsest": "最も粗い",
+    "At 0.4 of that size: what falls to shreds even so": (
+        "その 0.4 倍の大きさ：それでも途切れる線"
+    ),
     "Lean Network": "軽量ネットワーク",
     "Smaller, in two thirds of the time; cuts grainy lines more": (
         "小さく、時間は約 3 分の 2。ざらついた線は途切れやすい"
