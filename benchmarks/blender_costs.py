@@ -25,7 +25,11 @@ from involute.engine import Drawing, Settings, Stroke, vectorize
 from involute.operators.grease_pencil import routing_change, state, writing
 from involute.operators.grease_pencil.core.pixel_map import front_view
 from involute.operators.grease_pencil.retracing import retrace
+from involute.operators.tracing.part import Page, Part
+from involute.operators.tracing.recent import PARTS
+from involute.operators.tracing.sources import Source
 from involute.operators.tracing.trace import new_object
+from involute.operators.tracing.try_part import PartJob
 from involute.operators.view.junction_table import JunctionTable
 from involute.ui.overlay import colors, overlay_geometry, stroke_overlay
 
@@ -51,7 +55,13 @@ def seconds_of_an_artist(argv: Sequence[str] | None = None) -> Figures:
     """What is waited for while reviewing and adjusting: `python -m benchmarks run artist`."""
     argparse.ArgumentParser(description="Waits of an artist.").parse_args(argv)
     bpy.ops.wm.read_factory_settings(use_empty=True)
-    rows = [colors_unchanged(1000), review_step(1000), smoothing_changed(1000)]
+    rows = [
+        colors_unchanged(1000),
+        review_step(1000),
+        smoothing_changed(1000),
+        part_tried(320, anew=True),
+        part_tried(320, anew=False),
+    ]
     print(table(rows))
     return {what: {"ms": milliseconds, "at most": limit} for what, milliseconds, limit in rows}
 
@@ -189,6 +199,29 @@ def smoothing_changed(strokes: int) -> Row:
 
     change()
     return f"smoothing of {len(drawing.strokes)} strokes changed", _milliseconds(change), 300
+
+
+def part_tried(side: int, *, anew: bool) -> Row:
+    """A part of a scan traced with other settings: anew, or from where *Specks* acts on."""
+    path = _ROOT / "examples" / "hippopotamus.jpg"
+    height, width = cv2.imread(str(path), cv2.IMREAD_GRAYSCALE).shape
+    size = width, height
+    left, top = size[0] * 5 // 8, size[1] // 2
+    page = Page("", size, front_view(size))
+    part = Part(page, (left, top, left + side, top + side))
+    source = Source("part", str(path))
+    specks = iter(np.linspace(1.0 if anew else 1.05, 3.0, _RUNS + 1, endpoint=False))
+
+    def trace() -> None:
+        if anew:
+            PARTS.stages.clear()
+        job = PartJob(part, source, Settings(min_length=float(next(specks))))
+        job.run()
+        assert job.results[0].drawing is not None, job.results[0].problem
+
+    trace()
+    what = f"a part of {side} px, " + ("for the first time" if anew else "other Specks")
+    return what, _milliseconds(trace), 1000
 
 
 def cut_up(strokes: int) -> tuple[Drawing, bpy.types.ID, int]:

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import bpy
-from bpy.props import FloatProperty
 
 from ..language import message
-from ..view.view_state import CERTAIN, shown_in
+from ..view.view_state import certainty_property, shown_in
 from .junction_operator import JunctionOperator
 
 
@@ -16,14 +15,7 @@ class INVOLUTE_OT_accept(JunctionOperator, bpy.types.Operator):
     bl_idname = "involute.accept"
     bl_label = "Accept Certain Junctions"
 
-    probability: FloatProperty(
-        name="Certainty",
-        description="Least probability of the routing in force",
-        default=CERTAIN,
-        min=0.0,
-        max=100.0,
-        subtype="PERCENTAGE",
-    )
+    probability: certainty_property(least=0.0)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Lock them, and say how many there were."""

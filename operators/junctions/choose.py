@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import bpy
-from bpy.props import BoolProperty, IntProperty
+from bpy.props import BoolProperty
 
 from ..language import label
 from ..view.on_screen import junction_under
 from ..view.view_state import Shown, make_current, shown_in
 from .card_choice import CardChoice
+from .junction_operator import alternative_property, junction_property
 
 
 class INVOLUTE_OT_choose(CardChoice, bpy.types.Operator):
@@ -23,12 +24,8 @@ class INVOLUTE_OT_choose(CardChoice, bpy.types.Operator):
         default=False,
         options={"SKIP_SAVE", "HIDDEN"},
     )
-    junction: IntProperty(
-        name="Junction", description="Number of the junction; -1 is the current one", default=-1
-    )
-    alternative: IntProperty(
-        name="Alternative", description="Which alternative, the most probable is 0", min=0
-    )
+    junction: junction_property()
+    alternative: alternative_property()
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         """Show the cards; with `pick` of the junction under the mouse."""

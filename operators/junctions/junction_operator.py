@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 import bpy
+from bpy.props import IntProperty
 
 from ...engine import InvoluteError
 from ..grease_pencil.routing_change import change_routing
@@ -14,6 +15,20 @@ from ..view.view_state import Shown, redraw, select, shown_in
 
 if TYPE_CHECKING:
     from ...engine import Drawing
+
+
+def junction_property() -> object:
+    """Which junction an operator is for: the same for buttons, keys and scripts."""
+    return IntProperty(
+        name="Junction", description="Number of the junction; -1 is the current one", default=-1
+    )
+
+
+def alternative_property() -> object:
+    """Which of the ways through it."""
+    return IntProperty(
+        name="Alternative", description="Which alternative, the most probable is 0", min=0
+    )
 
 
 def change_shown(

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import bpy
-from bpy.props import IntProperty
 
 from ..language import message
 from ..view.view_state import shown_in
-from .junction_operator import JunctionOperator
+from .junction_operator import JunctionOperator, junction_property
 
 
 class INVOLUTE_OT_lock(JunctionOperator, bpy.types.Operator):
@@ -16,9 +15,7 @@ class INVOLUTE_OT_lock(JunctionOperator, bpy.types.Operator):
     bl_idname = "involute.lock"
     bl_label = "Lock Junction"
 
-    junction: IntProperty(
-        name="Junction", description="Number of the junction; -1 is the current one", default=-1
-    )
+    junction: junction_property()
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Lock the junction, or unlock it when it is locked."""

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import bpy
-from bpy.props import IntProperty
 
-from .junction_operator import JunctionOperator
+from .junction_operator import JunctionOperator, alternative_property, junction_property
 
 
 class INVOLUTE_OT_reroute(JunctionOperator, bpy.types.Operator):
@@ -14,12 +13,8 @@ class INVOLUTE_OT_reroute(JunctionOperator, bpy.types.Operator):
     bl_idname = "involute.reroute"
     bl_label = "Reroute Junction"
 
-    junction: IntProperty(
-        name="Junction", description="Number of the junction; -1 is the current one", default=-1
-    )
-    alternative: IntProperty(
-        name="Alternative", description="Which alternative, the most probable is 0", min=0
-    )
+    junction: junction_property()
+    alternative: alternative_property()
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Apply the alternative; only strokes through the junction change."""

@@ -7,7 +7,7 @@ from bpy.props import IntProperty
 
 from ..language import message
 from ..view.view_state import select, shown_in
-from .junction_operator import JunctionOperator
+from .junction_operator import JunctionOperator, junction_property
 
 
 class INVOLUTE_OT_separate(JunctionOperator, bpy.types.Operator):
@@ -19,9 +19,7 @@ class INVOLUTE_OT_separate(JunctionOperator, bpy.types.Operator):
     half: IntProperty(
         name="Line", description="Number of the half-branch; -1 separates all", default=-1
     )
-    junction: IntProperty(
-        name="Junction", description="Number of the junction; -1 is the current one", default=-1
-    )
+    junction: junction_property()
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """End one line, or all of the junction; the other pairs stay."""

@@ -257,6 +257,7 @@ class INVOLUTE_OT_import_sequence(
     def draw(self, context: bpy.types.Context) -> None:
         """The settings in the file browser."""
         self.layout.use_property_split = True
+        self.layout.use_property_decorate = False
         self.layout.prop(self, "resume")
         INVOLUTE_OT_trace_sequence.draw(self, context)
 

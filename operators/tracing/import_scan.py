@@ -46,6 +46,7 @@ class INVOLUTE_OT_import_scan(FileChoice, PlacingOptions, TraceOptions, bpy.type
     def draw(self, context: bpy.types.Context) -> None:
         """The settings in the file browser."""
         self.layout.use_property_split = True
+        self.layout.use_property_decorate = False
         self.layout.prop(self, "target")
         INVOLUTE_OT_trace.draw(self, context)
 

@@ -36,7 +36,7 @@ def put_behind(
         scan = pale(bpy.data.objects.get(source.empty))
     else:
         scan = _new_scan(obj, source, size, pixel_map)
-    if scan is not None and paper:
+    if paper:
         put_paper(obj, size, pixel_map)
     return scan
 

@@ -29,6 +29,19 @@ if TYPE_CHECKING:
 CERTAIN = 80.0  # percent; of scans a sixth of the junctions, and nine in ten of them are right
 
 
+def certainty_property(least: float) -> object:
+    """From which certainty on junctions are accepted, percent; no less than `least`."""
+    return FloatProperty(
+        name="Certainty",
+        description="Least probability of the routing in force",
+        default=CERTAIN,
+        min=least,
+        max=100.0,
+        precision=0,
+        subtype="PERCENTAGE",
+    )
+
+
 class INVOLUTE_PG_view(bpy.types.PropertyGroup):
     """Kept in the window manager."""
 
@@ -56,15 +69,7 @@ class INVOLUTE_PG_view(bpy.types.PropertyGroup):
         description="Trace again by itself when a setting changes",
         default=False,
     )
-    certainty: FloatProperty(
-        name="Certainty",
-        description="Least probability of the routing in force",
-        default=CERTAIN,
-        min=50.0,
-        max=100.0,
-        precision=0,
-        subtype="PERCENTAGE",
-    )
+    certainty: certainty_property(least=50.0)
     order: EnumProperty(
         name="Sort",
         description="Order of the list",

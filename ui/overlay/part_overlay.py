@@ -10,9 +10,9 @@ from gpu_extras.batch import batch_for_shader
 from mathutils.geometry import tessellate_polygon
 
 from ...operators.tracing.part import Part, current
-from ..panels.preferences import preferences_of
 from .drawn_batches import kept
 from .part_shapes import cut_off, part_shapes
+from .stroke_overlay import draw_lines, palette_of
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -29,7 +29,6 @@ _PAPER = (1.0, 1.0, 1.0, 0.55)  # over the scan, which shows through: what was m
 _SOLID = (0.25, 0.25, 0.25, 0.9)
 _BORDER = (0.1, 0.1, 0.1, 0.9)
 _INK = 0.45  # opacity of the ink around a stroke's middle
-_END_SIZE = 2.0  # line widths
 
 
 def draw_part(context: bpy.types.Context) -> None:
@@ -37,23 +36,14 @@ def draw_part(context: bpy.types.Context) -> None:
     part = current(context)
     if part is None:
         return
-    preferences = preferences_of(context)
-    palette = tuple(tuple(round(v, 4) for v in color) for color in preferences.stroke_palette)
-    width = preferences.stroke_width * context.preferences.system.ui_scale
+    palette = palette_of(context)
     gpu.state.blend_set("ALPHA")
     gpu.state.depth_test_set("NONE")
     with gpu.matrix.push_pop():
         gpu.matrix.multiply_matrix(part.page.object.matrix_world)
         areas, lines, dots = kept(("part", part, palette), lambda: _batches(part, palette))
         areas.draw(gpu.shader.from_builtin("FLAT_COLOR"))
-        shader = gpu.shader.from_builtin("POLYLINE_FLAT_COLOR")
-        shader.bind()
-        shader.uniform_float("viewportSize", (context.region.width, context.region.height))
-        shader.uniform_float("lineWidth", width)
-        lines.draw(shader)
-        if dots is not None:
-            gpu.state.point_size_set(_END_SIZE * width)
-            dots.draw(gpu.shader.from_builtin("POINT_FLAT_COLOR"))
+        draw_lines(context, lines, dots)
     gpu.state.blend_set("NONE")
 
 

@@ -20,28 +20,40 @@ if TYPE_CHECKING:
     from ...operators.grease_pencil.core.map_fit import Shapes
     from ...operators.view.view_state import Shown
 
-_END_SIZE = 2.5  # line widths
+_END_SIZE = 2.0  # line widths
 
 
 def draw_strokes(context: bpy.types.Context, shown: Shown) -> None:
     """Each stroke in its colour, a dot at each end."""
-    preferences = preferences_of(context)
-    palette = tuple(tuple(round(v, 4) for v in color) for color in preferences.stroke_palette)
+    palette = palette_of(context)
     shapes, content = content_of(shown.object.data, shown.frame)
     key = ("strokes", shown.trace.stamp, shown.trace.key, palette, content)
     lines, dots = kept(key, lambda: _batches(shown, shapes, palette))
-    width = preferences.stroke_width * context.preferences.system.ui_scale
     gpu.state.blend_set("ALPHA")
     gpu.state.depth_test_set("NONE")
+    draw_lines(context, lines, dots)
+    gpu.state.blend_set("NONE")
+
+
+def draw_lines(
+    context: bpy.types.Context, lines: gpu.types.GPUBatch, ends: gpu.types.GPUBatch | None
+) -> None:
+    """Batches of lines and points with colours, as wide as the user wants strokes."""
+    width = preferences_of(context).stroke_width * context.preferences.system.ui_scale
     shader = gpu.shader.from_builtin("POLYLINE_FLAT_COLOR")
     shader.bind()
     shader.uniform_float("viewportSize", (context.region.width, context.region.height))
     shader.uniform_float("lineWidth", width)
     lines.draw(shader)
-    if dots is not None:
+    if ends is not None:
         gpu.state.point_size_set(_END_SIZE * width)
-        dots.draw(gpu.shader.from_builtin("POINT_FLAT_COLOR"))
-    gpu.state.blend_set("NONE")
+        ends.draw(gpu.shader.from_builtin("POINT_FLAT_COLOR"))
+
+
+def palette_of(context: bpy.types.Context) -> tuple[tuple[float, ...], ...]:
+    """The colours of strokes, as a key of what is kept."""
+    colors = preferences_of(context).stroke_palette
+    return tuple(tuple(round(v, 4) for v in color) for color in colors)
 
 
 def _batches(

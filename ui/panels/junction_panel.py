@@ -5,7 +5,6 @@ from __future__ import annotations
 import bpy
 import numpy as np
 
-from ...engine import InvoluteError
 from ...operators.grease_pencil import state
 from ...operators.junctions.accept import INVOLUTE_OT_accept
 from ...operators.junctions.ask_again import INVOLUTE_OT_ask_again
@@ -27,25 +26,12 @@ from ...operators.junctions.separate import INVOLUTE_OT_separate
 from ...operators.language import label
 from ...operators.view.junction_words import angle, arrow, letters, percent, sentence
 from ...operators.view.view_state import Shown, shown_in
+from .sidebar import OfDrawing
 
 _ROWS = 6
 
 
-class _Sidebar:
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Involute"
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        """Is there a traced drawing whose junctions can be shown?"""
-        try:
-            return shown_in(context) is not None
-        except InvoluteError:
-            return False
-
-
-class INVOLUTE_PT_junctions(_Sidebar, bpy.types.Panel):
+class INVOLUTE_PT_junctions(OfDrawing, bpy.types.Panel):
     """All junctions: filters, list, steps, and what is done to all of them."""
 
     bl_label = "Junctions"
@@ -84,7 +70,7 @@ class INVOLUTE_PT_junctions(_Sidebar, bpy.types.Panel):
             self.layout.prop(shown.object, "involute_pen_lifts", slider=True)
 
 
-class INVOLUTE_PT_junction(_Sidebar, bpy.types.Panel):
+class INVOLUTE_PT_junction(OfDrawing, bpy.types.Panel):
     """The current junction: in words, its alternatives, by hand."""
 
     bl_label = "Current Junction"

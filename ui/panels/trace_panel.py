@@ -34,17 +34,15 @@ from ...operators.tracing.try_part import INVOLUTE_OT_drop_part, INVOLUTE_OT_kee
 from ...operators.tracing.use_defaults import INVOLUTE_OT_use_defaults
 from ...operators.view.view_state import Shown, shown_in
 from .presets import draw_preset_menu
+from .sidebar import Sidebar
 
 _LINE = 34  # letters in a line of the sidebar
 
 
-class INVOLUTE_PT_trace(bpy.types.Panel):
+class INVOLUTE_PT_trace(Sidebar, bpy.types.Panel):
     """What to trace and how; progress while a trace runs."""
 
     bl_label = "Trace Drawing"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Involute"
 
     def draw_header_preset(self, context: bpy.types.Context) -> None:
         """Reset and presets."""
@@ -113,13 +111,10 @@ def _said_of(part: parts.Part) -> str:
     return label("Part: {count} strokes", count=len(part.drawing.strokes))
 
 
-class INVOLUTE_PT_summary(bpy.types.Panel):
+class INVOLUTE_PT_summary(Sidebar, bpy.types.Panel):
     """What came out of the trace."""
 
     bl_label = "Result"
-    bl_space_type = "VIEW_3D"
-    bl_region_type = "UI"
-    bl_category = "Involute"
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
