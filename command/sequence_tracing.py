@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 from os import PathLike
 from pathlib import Path
 
 from ..engine.drawing import Drawing
 from ..engine.errors import InvoluteError
+from ..engine.grain import is_decided
+from ..engine.pipeline import grain_of
 from ..engine.sequence.follow import Follower
 from ..engine.sequence.frames import Frame
 from ..engine.settings import Settings
@@ -55,7 +58,7 @@ def trace_sequence(
                 frames, settings, jobs=jobs, parts=folder, follow=follow, progress=progress
             )
         return
-    tasks = part_tasks(frames, settings or Settings(), parts)
+    tasks = part_tasks(frames, _seen_alike(frames, settings or Settings()), parts)
     numbers = {task: k for k, task in enumerate(tasks)}
     follower = Follower()
     done: dict[int, batch.Outcome] = {}
@@ -70,6 +73,16 @@ def trace_sequence(
                 drawing = follower(drawing)
             yield frames[following].frame, drawing
             following += 1
+
+
+def _seen_alike(frames: Sequence[Frame], settings: Settings) -> Settings:
+    """The settings for all frames: they are looked at as suits the first one."""
+    if not frames or is_decided(settings):
+        return settings
+    try:
+        return replace(settings, grain=grain_of(frames[0].path, settings, frames[0].page))
+    except InvoluteError:  # told when its turn comes
+        return settings
 
 
 def part_tasks(

@@ -22,6 +22,7 @@ from .centerline.mending import mended
 from .drawing import Drawing, Fill
 from .errors import Cancelled
 from .fills.solids import split_solids
+from .grain import is_decided, is_torn, note, simplest
 from .graph import Evidence, routed, run_passes
 from .graph.passes import ROUTED
 from .ink.unmixing import without_inks
@@ -93,9 +94,49 @@ def vectorize(
         with clock("graph"):
             drawing = drawing_of_vectors(Path(source), settings or Settings(), vectorize)
     else:
-        trace = _Trace(source, page, settings or Settings(), turn, clock, kept, before)
-        drawing = trace.drawing()
+
+        def trace(settings: Settings) -> _Trace:
+            return _Trace(source, page, settings, turn, clock, kept, before)
+
+        settings = settings or Settings()
+        alike = before is not None or not turn  # the frames of a sequence
+        grain = "fine"
+        if alike or is_decided(settings):
+            drawing = trace(_closely(settings)).drawing()
+        else:
+            drawing, grain = _seen_well(trace, settings)
+        notes = drawing.notes if grain == "fine" else (*drawing.notes, note(grain))
+        drawing = replace(drawing, settings=settings, notes=notes)
     return drawing.with_seconds(clock.seconds)
+
+
+def grain_of(source: Source, settings: Settings, page: int = 0) -> str:
+    """The value of `Settings.grain` that suits a page, for it and for all like it.
+
+    Raises:
+        InvoluteError: the source can't be read.
+    """
+    if is_decided(settings) or is_vector(source):
+        return settings.grain
+
+    def trace(settings: Settings) -> _Trace:
+        return _Trace(source, page, settings, False, _Clock(None), None)
+
+    return _seen_well(trace, settings)[1]
+
+
+def _seen_well(trace: Callable[[Settings], _Trace], settings: Settings) -> tuple[Drawing, str]:
+    """The drawing of a page, seen from farther away where its lines are torn, and its grain."""
+    close = trace(_closely(settings))
+    scan, drawing = close.scan(), close.drawing()
+    if not is_torn(drawing, scan):
+        return drawing, "fine"
+    return simplest(drawing, lambda grain: trace(replace(settings, grain=grain)).drawing())
+
+
+def _closely(settings: Settings) -> Settings:
+    """Without a choice of its own a page is looked at from close by."""
+    return replace(settings, grain="fine") if settings.grain == "auto" else settings
 
 
 class _Trace:
@@ -252,6 +293,7 @@ class _Clock:
     def __init__(self, progress: Progress | None) -> None:
         self.seconds: dict[str, float] = {}
         self._progress = progress
+        self._shown = 0.0
         self._stage = ""
 
     def __call__(self, stage: str) -> _Clock:
@@ -264,12 +306,14 @@ class _Clock:
         return self._tick
 
     def __exit__(self, *error: object) -> None:
-        self.seconds[self._stage] = perf_counter() - self._start
+        taken = perf_counter() - self._start
+        self.seconds[self._stage] = self.seconds.get(self._stage, 0.0) + taken
 
     def _tick(self, fraction: float) -> None:
         if self._progress:
-            begin = _BEGINS[self._stage]
-            self._progress(self._stage, min(1.0, begin + _SHARES[self._stage] * fraction))
+            done = min(1.0, _BEGINS[self._stage] + _SHARES[self._stage] * fraction)
+            self._shown = max(self._shown, done)  # a page that is looked at again is not begun anew
+            self._progress(self._stage, self._shown)
 
 
-__all__ = ["Cancelled", "FrameBefore", "KeptStages", "Progress", "Source", "vectorize"]
+__all__ = ["Cancelled", "FrameBefore", "KeptStages", "Progress", "Source", "grain_of", "vectorize"]

@@ -235,6 +235,22 @@ class Settings:
         more="Hide or delete the layer to leave it out; letters of 3 mm are 10 to 30 pens tall",
     )
     align: tuple[tuple[float, float], ...] = ()
+    grain: str = _one_of(
+        (
+            "auto",
+            "Automatic",
+            "Closely, and where soft lines are torn from afar as well; the simpler drawing is kept",
+        ),
+        ("fine", "Fine", "As close as the pen is wide: ink, markers, clean pencil"),
+        ("medium", "Medium", "At 0.7 of that size: soft pencil, crayon"),
+        ("coarse", "Coarse", "At 0.55 of that size: charcoal, chalk, rough paper"),
+        ("coarsest", "Coarsest", "At 0.4 of that size: what falls to shreds even so"),
+        group=WHAT,
+        stage="scan",
+        label="Grain",
+        tip="From how far the page is looked at, so that grainy lines are whole",
+        more="The frames of a sequence are looked at as suits the first of them",
+    )
     min_length: float = _number(
         1.0,
         0.0,

@@ -34,6 +34,7 @@ SENTENCES = (
     "The sheet was straightened: its corners were {0}° askew.",
     "What shows through from the back was left out: {0} of the ink.",
     "Printed rules were left out.",
+    "The lines are grainy: traced from farther away (--grain {0}).",
     "Left out as no part of the drawing: {0}.",
     "dark borders of the scan",
     "{0} punched holes",

@@ -44,6 +44,18 @@ def closed_regions(graph: PlanarGraph, smallest: float = 0.0) -> tuple[Region, .
     return tuple(tuple(regions[f]) for f in sorted(regions, key=lambda f: -area[f]))
 
 
+def face_of_halves(graph: PlanarGraph) -> tuple[Array, Array]:
+    """(2B,) the half-branch that lies before each one around its vertex, and (2B,) the face that is
+    walked round along each; loose ends are walked out and back."""
+    following = _next_halves(graph, np.ones(graph.branch_count, bool))
+    return following[np.arange(len(following)) ^ 1], _cycles(following)
+
+
+def areas_of(graph: PlanarGraph, face: Array) -> Array:
+    """(2B,) px², by the number of the face; below zero where it is walked round from outside."""
+    return np.bincount(face, _half_areas(graph), 2 * graph.branch_count)
+
+
 def _without_dead_ends(graph: PlanarGraph) -> Array:
     """(B,) bool: branches that are left when loose ends are taken off until there are none."""
     kept = np.ones(graph.branch_count, bool)

@@ -36,7 +36,7 @@ class AtVertices:
             least: degree of a vertex from which on its half-branches are compared.
         """
         vertex = graph.half_vertex
-        out = _directions(graph, look)
+        out = directions(graph, look)
         a, b = pairs_within(np.where(graph.degrees[vertex] >= least, vertex, -1)).T
         turn = (out[a] * out[b]).sum(1)
         straight, beside = np.full(len(vertex), -1.0), np.full(len(vertex), -1.0)
@@ -59,7 +59,7 @@ class AtVertices:
         return found
 
 
-def _directions(graph: PlanarGraph, look: int) -> Array:
+def directions(graph: PlanarGraph, look: int) -> Array:
     """(2B, 2) unit vectors in which the half-branches leave their vertices."""
     size = np.minimum(np.diff(graph.offsets) - 1, look)
     start, stop = graph.offsets[:-1], graph.offsets[1:] - 1

@@ -13,20 +13,37 @@ import numpy as np
 
 from ..arrays.ragged import end_to_end, owners, ranges
 from ..graph.topology import lengths
+from ..routing import geometric, network
 from ..routing.features import FEATURES as OF_PAIRS
 from ..routing.features import pair_features
 from ..values import Array, PlanarGraph
-from .grouping import log_odds
+from . import fronts
+from .grouping import probability
 from .redrawn import SAID, Bundles, nearest_of, pixels_of
 
 _SCALES = (1.0, 2.0, 4.0)  # times the pen
-FEATURES = len(_SCALES) * len(OF_PAIRS) + 7 + 5  # of a pair
+FEATURES = len(_SCALES) * len(OF_PAIRS) + 7 + 5 + fronts.FEATURES + 1  # of a pair
+_LEAST = 1e-5  # probability of a pair at least
+_ENDS = 0.03  # and of a half-branch to end; 0.1 is no better on held-out pages
 _FROM, _TO = 2.0, 16.0  # px from a junction between which a pencil stroke is part of a half-branch
 
 
 def score(graph: PlanarGraph, pairs: Array, bundles: Bundles) -> Array:
-    """(K,) float32 log-odds of joining each of the (K, 2) pairs against ending both."""
-    return log_odds(features(graph, pairs, bundles), "goes_on").astype(np.float32)
+    """(K,) float32 log-odds of joining each of the (K, 2) pairs against ending both.
+
+    The network says how often each pair is one line, whatever the others are. The involution that
+    is most probable in all needs weights from which these probabilities follow: on a tree they are
+    p (1 - p) / (e e') with the probabilities e that a half-branch ends (Bethe's approximation of
+    monomers and dimers).
+    """
+    one = probability(features(graph, pairs, bundles), "goes_on")
+    one = np.clip(one, _LEAST, 1 - _LEAST)
+    going = np.zeros(2 * graph.branch_count)
+    for half in pairs.T:
+        np.add.at(going, half, one)
+    ends = np.maximum(1 - going, _ENDS)
+    a, b = pairs.T
+    return np.log(one * (1 - one) / (ends[a] * ends[b])).astype(np.float32)
 
 
 def features(graph: PlanarGraph, pairs: Array, bundles: Bundles) -> Array:
@@ -37,19 +54,29 @@ def features(graph: PlanarGraph, pairs: Array, bundles: Bundles) -> Array:
     ]
     turn = scaled[1][:, 3]
     a, b = pairs.T
-    length = np.log(np.maximum(lengths(graph), 0.5) / float(np.median(graph.widths)))
+    pen = float(np.median(graph.widths))
+    length = np.log(np.maximum(lengths(graph), 0.5) / pen)
     degree = graph.degrees[graph.half_vertex[a]]
     rival_a, rival_b = _rivals(pairs, turn, len(graph.half_vertex))
+    straightest = turn <= np.minimum(rival_a, rival_b)
     extra = [
         np.minimum(length[a >> 1], length[b >> 1]),
         np.maximum(length[a >> 1], length[b >> 1]),
         degree,
         turn - np.minimum(rival_a, rival_b),
         turn - np.maximum(rival_a, rival_b),
-        turn <= np.minimum(rival_a, rival_b),
+        straightest,
         (a >> 1) == (b >> 1),
     ]
-    return np.column_stack([*scaled, *extra, *_drawn_through(graph, pairs, bundles)])
+    in_front = fronts.fronts(graph, pairs, turn, straightest, pen)
+    through = _drawn_through(graph, pairs, bundles)
+    return np.column_stack([*scaled, *extra, *through, *in_front, _as_clean(graph, pairs)])
+
+
+def _as_clean(graph: PlanarGraph, pairs: Array) -> Array:
+    """(K,) log-odds of joining each pair, if these were the lines of a clean page."""
+    score = network.score if network.available() else geometric.score
+    return score(graph, pairs)
 
 
 def _drawn_through(graph: PlanarGraph, pairs: Array, bundles: Bundles) -> list[Array]:

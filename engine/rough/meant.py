@@ -7,6 +7,8 @@ are, compared with those it hangs on and with the whole page, and how it lies at
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from ..arrays.ragged import owners
@@ -26,12 +28,14 @@ _ROUNDS = 2  # what hung on something that went is looked at again
 _LOOK = 8  # points of a branch that tell its direction
 
 
-def meant_lines(graph: PlanarGraph, bundles: Bundles, pen: float) -> PlanarGraph:
-    """The graph without the branches that most probably mean nothing."""
+def meant_lines(
+    graph: PlanarGraph, bundles: Bundles, pen: float, net: Mapping[str, Array] | None = None
+) -> PlanarGraph:
+    """The graph without the branches that most probably mean nothing; net: other weights."""
     for _ in range(_ROUNDS):
         if graph.branch_count == 0:
             break
-        stays = probability(features(graph, bundles, pen), "meant") > _SURE
+        stays = probability(features(graph, bundles, pen), "meant", net) > _SURE
         if stays.all():
             break
         graph = join(select(graph, stays))

@@ -23,12 +23,14 @@ from ..values import Array, Pose, Scan
 from .overlooked import overlooked
 from .paper import flattened
 from .pen_width import measured_pen
-from .picture import Source, as_bytes, checked_picture, darkest_gray, unit
+from .picture import MIN_SIDE, Source, as_bytes, checked_picture, darkest_gray, unit
 from .polarity import is_light_on_dark, with_lightness_inverted
 from .pose import pose_of
 from .sheet import Sheet, find_sheet, without_surroundings
 from .straightening import askew, corners_of, straightened
 
+# Shares of its size at which a page is read, by `Settings.grain`; see `engine.grain`.
+SEEN_AT = {"auto": 1.0, "fine": 1.0, "medium": 0.7, "coarse": 0.55, "coarsest": 0.4}
 _PEN_RANGE = (1.5, 8.0)  # working px; pens within stay as they are
 _PEN_TARGET = (2.5, 6.0)  # what thinner and thicker ones are brought to
 _PLENTY, _ENOUGH = 4e6, 4.0  # px of a page above which pens as wide as this will do
@@ -44,8 +46,8 @@ def read_scan(source: Source, settings: Settings, page: int = 0, turn: bool = Fa
     Args:
         source: path of an image, or an (H, W), (H, W, 3) or (H, W, 4) array in RGB(A) order: bool,
             uint8, uint16 or float in [0, 1].
-        settings: polarity, pen_width and provider are used. With provider "given" the picture is
-            taken as it is: ink = its luminance, scale 1.
+        settings: polarity, pen_width, grain and provider are used. With provider "given" the
+            picture is taken as it is: ink = its luminance, scale 1.
         page: which page of a TIFF with several.
         turn: whether the page is turned to the pose in which its drawing is always looked at.
 
@@ -59,10 +61,12 @@ def read_scan(source: Source, settings: Settings, page: int = 0, turn: bool = Fa
     size = picture.shape[1], picture.shape[0]
     pose = pose_of(picture) if turn else Pose()
     picture = pose.turned(picture)
-    height, width = picture.shape[:2]
     if settings.provider == "given":
         luma = cv2.cvtColor(picture, cv2.COLOR_RGB2GRAY) if picture.ndim == 3 else picture
         return Scan(unit(luma), None, 1.0, size, settings.pen_width or 2.0, pose=pose)
+    share = _seen_at(settings, picture)
+    picture = _resized(picture, 1 / share)
+    height, width = picture.shape[:2]
     light, sheet = _looked_at(picture, settings)
     if light:
         picture = with_lightness_inverted(picture)
@@ -74,7 +78,7 @@ def read_scan(source: Source, settings: Settings, page: int = 0, turn: bool = Fa
     ink, ruled = None, False
     if gray.size <= _FLAT_WHOLE:
         ink, ruled = flattened(unit(gray), settings.rules)
-    pen = settings.pen_width or measured_pen(gray, ink) or _DEFAULT_PEN
+    pen = settings.pen_width * share or measured_pen(gray, ink) or _DEFAULT_PEN
     scale = _working_scale(pen, width, height)
     if ink is None or scale != 1.0:
         gray = _resized(gray, scale)
@@ -86,8 +90,14 @@ def read_scan(source: Source, settings: Settings, page: int = 0, turn: bool = Fa
     color = as_bytes(_resized(picture, scale)) if picture.ndim == 3 else None
     guessed = light and settings.polarity == "auto"
     pen /= scale
-    found = Scan(ink, color, scale, size, pen, light=guessed, notes=notes, pose=pose)
+    found = Scan(ink, color, scale / share, size, pen, light=guessed, notes=notes, pose=pose)
     return replace(found, overlooked=left)
+
+
+def _seen_at(settings: Settings, picture: Array) -> float:
+    """Share of its size at which a page is read; a small one is read as it is."""
+    share = SEEN_AT[settings.grain]
+    return share if min(picture.shape[:2]) * share >= MIN_SIDE else 1.0
 
 
 def _looked_at(picture: Array, settings: Settings) -> tuple[bool, Sheet | None]:

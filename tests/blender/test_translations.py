@@ -67,7 +67,7 @@ def texts(node: ast.expr) -> Iterator[str]:
 
 # The modules of the engine whose sentences are seen in Blender, and those of them for programs.
 ENGINE = (
-    *("fidelity", "drawing", "vector_page", "scan/preparing", "scan/registration"),
+    *("fidelity", "drawing", "grain", "vector_page", "scan/preparing", "scan/registration"),
     *(
         "scan/screentone",
         "scan/show_through",

@@ -6,7 +6,11 @@ import cv2
 import numpy as np
 import pytest
 from involute.engine import Drawing, Settings, vectorize
+from involute.engine.graph.at_vertices import directions
+from involute.engine.rough import fronts
 from involute.engine.rough.merging import one_line
+from involute.engine.routing.candidates import candidate_pairs
+from involute.synthesis.true_graph import graph_from_strokes
 
 SIZE = 420
 AUTO = Settings(drawing="auto")
@@ -152,3 +156,23 @@ def test_lines_go_on_over_a_gap():
     drawing = vectorize(page([*left, *right, *sketched()]), Settings(drawing="rough"))
     across = [s for s in drawing.strokes if abs(np.median(s.points[:, 1]) - 200) < 6]
     assert max(length(s.points) for s in across) > 330
+
+
+def test_the_rim_of_what_is_in_front_goes_on() -> None:
+    """A box hides two lines behind it; a third one meets its corner, straight on from its edge."""
+    box = np.array([[100, 100], [300, 100], [300, 300], [100, 300], [100, 100]], float)
+    behind = [np.array([[20, y], [100, y]], float) for y in (160, 230)]
+    behind.append(np.array([[300, 100], [400, 104]], float))
+    graph, true = graph_from_strokes([box, *behind])
+    pairs = candidate_pairs(graph)
+    a, b = pairs.T
+    way = directions(graph, 8)
+    turn = np.arccos(np.clip(-(way[a] * way[b]).sum(1), -1, 1))
+    corner = np.hypot(*(graph.vertices[graph.half_vertex[a]] - [300, 100]).T) < 2
+    assert corner.sum() == 3
+    straightest = np.where(corner, turn == turn[corner].min(), turn < 0.1)
+    share = fronts.fronts(graph, pairs, turn, straightest, 2.0)[0]
+    rim = corner & (true[a] == b)
+    assert not straightest[rim]
+    assert share[rim] == 1.0
+    assert share[corner & ~rim].max() < 0.6

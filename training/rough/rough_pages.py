@@ -24,6 +24,7 @@ from involute.engine.settings import Settings
 from involute.engine.values import PlanarGraph
 from involute.synthesis import pencilling
 from involute.synthesis.composed_pages import Library
+from involute.synthesis.figures import figure
 from involute.synthesis.held_out_pages import endless
 from involute.synthesis.media import MEDIA, draw, line_spacing, sample
 from involute.synthesis.pencilling import Hand, angular, construction, in_pieces, keyed, pencilled
@@ -31,19 +32,22 @@ from involute.synthesis.sheet_of_paper import paper, scan, shadow
 
 Array = np.ndarray
 
-KINDS = (
+KINDS = (  # by number, in turn
     "sketch",
     "keyframe",
     "hatched",
+    "keyframe",
     "sketch",
     "keyframe",
     "clean",
     "sketch",
-)  # by number, in turn
+)
 EACH = (2, 4, 7)  # strokes a line of held-out sketches, in turn
-_SIZE = (0.4, 0.8)  # of a page of the benchmark's size: smaller ones are traced sooner
+_SIZE = (0.35, 0.8)  # of a page of the benchmark's size: smaller ones are traced sooner
 _MARGIN, _LEAST = 24, 300  # px
-_DENSEST = 8.0  # px between the lines of a page; closer ones can't be drawn roughly
+_DENSEST = {"sketch": 8.0, "keyframe": 5.0, "clean": 0.0}  # px between the lines of a page
+# Share of the pages whose lines hide each other, as in cartoons: most of what animators draw.
+_FIGURES = {"sketch": 0.4, "keyframe": 0.75, "clean": 0.4}
 _ANGULAR = 0.6  # share of the keyframes whose lines are straight from corner to corner
 _LIFTED = 22.0  # degrees; corners of keyframes at which the pencil may be lifted
 _HATCHED = 420  # px; side of a page of hatching
@@ -123,10 +127,10 @@ def rough_page(
     kind = KINDS[number % len(KINDS)]
     if kind == "hatched":
         return hatched(rng)
-    lines = [line.astype(np.float32) * rng.uniform(*_SIZE) for line in next(endless(rng, library))]
+    lines = _lines(rng, library, kind)
     size = max(int(np.ceil(np.max([line.max(0) for line in lines]) + _MARGIN)), _LEAST)
     spacing = line_spacing(sample(lines, size), size)
-    if kind != "clean" and spacing < _DENSEST:
+    if spacing < _DENSEST[kind]:
         return None
     if kind == "keyframe" and rng.random() < _ANGULAR:
         lines = angular(lines, rng.uniform(1.0, 3.5))
@@ -141,6 +145,16 @@ def rough_page(
         ink = _drawn_once(rng, lines, spacing, size)
     spread, strokes = (hand.spread, hand.strokes) if hand else (0.0, 1.0)
     return _traced(_scanned(rng, ink), lines, spread, strokes)
+
+
+def _lines(rng: np.random.Generator, library: Library, kind: str) -> list[Array]:
+    """True lines of a kind of page, all of them at one scale: they meet where they met."""
+    if rng.random() < _FIGURES[kind]:
+        whole = [line + _MARGIN for line in figure(rng, library)]
+    else:
+        whole = next(endless(rng, library))
+    scale = rng.uniform(*_SIZE)
+    return [line.astype(np.float32) * np.float32(scale) for line in whole]
 
 
 def hatched(rng: np.random.Generator) -> RoughPage:
@@ -227,7 +241,7 @@ def _sketched(
     else:
         pencil, press = pencilled(rng, lines, hand)
     ink: Array = np.zeros((size, size), np.float32)
-    light = construction(rng, size) if rng.random() < 0.6 else []
+    light = construction(rng, size) if rng.random() < (0.3 if sure else 0.6) else []
     if light:
         ink = draw(rng, sample(light, size), medium, pen, size)[0] * rng.uniform(0.2, 0.6)
     dark = rng.random() < (0.7 if sure else 0.3)  # lines of a drawing program: all as dark

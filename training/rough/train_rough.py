@@ -1,6 +1,6 @@
 """Learn how many pencil strokes become one line, for `engine/rough`.
 
-`python -m training run rough --data DIR --run RUN --pages 280` draws and traces pages
+`python -m training run rough --data DIR --run RUN --pages 200` draws and traces pages
 (`rough_pages`; RUN/train and RUN/held_out, started again it goes on) and trains five small
 networks, one on what the other leaves: which strokes mean one line (on any page, and on rough
 ones), which redrawn lines are meant, which go on over gaps, and which in which where they meet. It
@@ -55,7 +55,8 @@ def main(argv: Sequence[str] | None = None) -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--data", type=Path, required=True, help="folder of SOURCE.npz drawings")
     parser.add_argument("--run", type=Path, required=True)
-    parser.add_argument("--pages", type=int, default=280, help="and a fifth of that, held out")
+    parser.add_argument("--pages", type=int, default=200, help="to learn from")
+    parser.add_argument("--held-out", type=int, default=64, help="pages that choose when to stop")
     parser.add_argument("--steps", type=int, default=1500)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--out", type=Path, default=grouping.WEIGHTS)
@@ -65,7 +66,7 @@ def main(argv: Sequence[str] | None = None) -> None:
     torch.set_num_threads(1)
     parts = [
         _pages(args.run, *part, args.data, args.seed)
-        for part in (("train", args.pages, False), ("held_out", args.pages // 5, True))
+        for part in (("train", args.pages, False), ("held_out", args.held_out, True))
     ]
     net, figures = learnt(*parts, args.steps)
     print(json.dumps(figures, indent=1))
@@ -100,10 +101,10 @@ def learnt(
     # On a page that is known to be rough, more means one line than anywhere.
     pages, held = ([page for page in some if page.spread > 0] for some in (pages, held))
     learn("same", *([stretches(page) for page in some] for some in (pages, held)))
-    wide = {k: v.astype(np.float64) for k, v in net.items()}
-    redrawn = [[redrawn_rows(page, wide) for page in some] for some in (pages, held)]
-    for number, name in enumerate(("meant", "bridges", "goes_on")):
-        learn(name, *([one[number] for one in some] for some in redrawn))
+    learn("meant", *([branch_rows(page, _wide(net)) for page in some] for some in (pages, held)))
+    left = [[left_rows(page, _wide(net)) for page in some] for some in (pages, held)]
+    for number, name in enumerate(("bridges", "goes_on")):
+        learn(name, *([one[number] for one in some] for some in left))
     return net, figures
 
 
@@ -121,12 +122,13 @@ def stretches(page: RoughPage) -> Rows:
     return rows[known], label[known]
 
 
-def redrawn_rows(page: RoughPage, net: Net) -> tuple[Rows, Rows, Rows]:
-    """Features and labels of the branches that are redrawn, of the loose ends of those meant, and
-    of their pairs where gaps are closed."""
-    ink = page.ink.astype(np.float32) / 255
-    found = cleaning.bundled(page.graph, page.partner, ink, net)
-    bundles, graph = cleaning.redrawn(found, Settings(), page.ink.shape)
+def _wide(net: Net) -> Net:
+    return {k: v.astype(np.float64) for k, v in net.items()}
+
+
+def branch_rows(page: RoughPage, net: Net) -> Rows:
+    """Features and labels of the branches that are redrawn: is each of them meant?"""
+    found, bundles, graph = _redrawn(page, net)
     true = TrueLines.of(page.lines)
     branches: list[Rows] = [_none(meant.FEATURES)]
     rng = np.random.default_rng(0)
@@ -136,11 +138,40 @@ def redrawn_rows(page: RoughPage, net: Net) -> tuple[Rows, Rows, Rows]:
         label = true_lines.meant(graph, true, page.spread)
         branches.append((meant.features(graph, bundles, found.pen), label))
         graph = join(select(graph, label | (rng.random(len(label)) < left)))
-    halves = bridging.candidates(graph, found.pen)
-    gaps = true_lines.goes_on(graph, halves, true, page.spread)
-    ends = bridging.features(graph, halves, bundles, found.pen), gaps
-    graph = bridging.closed(graph, true_lines.nearest_first(graph, halves[gaps]))
-    return _stacked(branches), ends, _pairs(graph, page, bundles)
+    return _stacked(branches)
+
+
+def left_rows(page: RoughPage, net: Net) -> tuple[Rows, Rows]:
+    """Features and labels of the loose ends of what is meant, and of its pairs where gaps are
+    closed: of what is meant in truth, and of what the network takes for it."""
+    found, bundles, redrawn = _redrawn(page, net)
+    true = TrueLines.of(page.lines)
+    ends, pairs = [_none(bridging.FEATURES)], [_none(continuing.FEATURES)]
+    for graph in (
+        _truly_meant(redrawn, true, page.spread),
+        meant.meant_lines(redrawn, bundles, found.pen, net),
+    ):
+        if graph.branch_count < 2:
+            continue
+        halves = bridging.candidates(graph, found.pen)
+        gaps = true_lines.goes_on(graph, halves, true, page.spread)
+        ends.append((bridging.features(graph, halves, bundles, found.pen), gaps))
+        whole = bridging.closed(graph, true_lines.nearest_first(graph, halves[gaps]))
+        pairs.append(_pairs(whole, page, bundles))
+    return _stacked(ends), _stacked(pairs)
+
+
+def _redrawn(page: RoughPage, net: Net) -> tuple[cleaning.Bundled, Bundles, PlanarGraph]:
+    ink = page.ink.astype(np.float32) / 255
+    found = cleaning.bundled(page.graph, page.partner, ink, net)
+    return found, *cleaning.redrawn(found, Settings(), page.ink.shape)
+
+
+def _truly_meant(graph: PlanarGraph, true: TrueLines, spread: float) -> PlanarGraph:
+    for _ in range(2):  # what hung on something that went is looked at again
+        if graph.branch_count:
+            graph = join(select(graph, true_lines.meant(graph, true, spread)))
+    return graph
 
 
 def _pairs(graph: PlanarGraph, page: RoughPage, bundles: Bundles) -> Rows:
@@ -154,7 +185,7 @@ def _pairs(graph: PlanarGraph, page: RoughPage, bundles: Bundles) -> Rows:
     least, strays = _NEAR
     truth = labels.labelled(graph, page.lines, max(least, strays * page.spread))
     owned = truth.stroke[graph.offsets[:-1]] >= 0
-    known = owned[pairs >> 1].all(1)
+    known = owned[pairs >> 1].any(1)  # what is left of no line goes on in none
     label = np.asarray(truth.partner)[pairs[:, 0]] == pairs[:, 1]
     return continuing.features(graph, pairs, bundles)[known], label[known]
 

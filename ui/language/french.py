@@ -128,6 +128,30 @@ TEXTS = {
     "Trained on pencil, ink, chalk and bad scans": (
         "Entraîné sur crayon, encre, craie et mauvaises numérisations"
     ),
+    "Grain": "Grain",
+    "From how far the page is looked at, so that grainy lines are whole": (
+        "De quelle distance la page est regardée, pour que les traits grenus restent entiers"
+    ),
+    "Closely, and where soft lines are torn from afar as well; the simpler drawing is kept": (
+        "De près, et de loin aussi si des traits doux sont déchirés ; le plus simple est gardé"
+    ),
+    "As close as the pen is wide: ink, markers, clean pencil": (
+        "Aussi près que la plume est large : encre, feutre, crayon net"
+    ),
+    "At 0.7 of that size: soft pencil, crayon": "À 0,7 de cette taille : crayon gras, pastel",
+    "At 0.55 of that size: charcoal, chalk, rough paper": (
+        "À 0,55 de cette taille : fusain, craie, papier rugueux"
+    ),
+    "Fine": "Fin",
+    "Medium": "Moyen",
+    "Coarse": "Grossier",
+    "The lines are grainy: traced from farther away (--grain {0}).": (
+        "Les traits sont grenus : tracé de plus loin (--grain {0})."
+    ),
+    "Coarsest": "Le plus grossier",
+    "At 0.4 of that size: what falls to shreds even so": (
+        "À 0,4 de cette taille : ce qui reste en lambeaux malgré tout"
+    ),
     "Lean Network": "Réseau léger",
     "Smaller, in two thirds of the time; cuts grainy lines more": (
         "Plus petit, en deux tiers du temps ; coupe davantage les traits granuleux"

@@ -134,6 +134,32 @@ TEXTS = {
     "Trained on pencil, ink, chalk and bad scans": (
         "An Bleistift, Tusche, Kreide und schlechten Scans gelernt"
     ),
+    "Grain": "Korn",
+    "From how far the page is looked at, so that grainy lines are whole": (
+        "Aus welcher Entfernung die Seite betrachtet wird, damit körnige Linien ganz bleiben"
+    ),
+    "Closely, and where soft lines are torn from afar as well; the simpler drawing is kept": (
+        "Aus der Nähe, und wo weiche Linien zerrissen sind, auch von weitem; die einfachere bleibt"
+    ),
+    "As close as the pen is wide: ink, markers, clean pencil": (
+        "So nah, wie der Stift breit ist: Tinte, Filzstift, sauberer Bleistift"
+    ),
+    "At 0.7 of that size: soft pencil, crayon": (
+        "Bei 0,7 dieser Größe: weicher Bleistift, Kreidestift"
+    ),
+    "At 0.55 of that size: charcoal, chalk, rough paper": (
+        "Bei 0,55 dieser Größe: Kohle, Kreide, raues Papier"
+    ),
+    "Fine": "Fein",
+    "Medium": "Mittel",
+    "Coarse": "Grob",
+    "The lines are grainy: traced from farther away (--grain {0}).": (
+        "Die Linien sind körnig: aus größerer Entfernung nachgezeichnet (--grain {0})."
+    ),
+    "Coarsest": "Gröbstes",
+    "At 0.4 of that size: what falls to shreds even so": (
+        "Bei 0,4 dieser Größe: was auch so noch in Fetzen kommt"
+    ),
     "Lean Network": "Schlankes Netz",
     "Smaller, in two thirds of the time; cuts grainy lines more": (
         "Ein kleineres in zwei Dritteln der Zeit; zerlegt körnige Linien öfter"

@@ -126,6 +126,30 @@ TEXTS = {
     "Trained on pencil, ink, chalk and bad scans": (
         "鉛筆、インク、チョーク、状態の悪いスキャンで学習済み"
     ),
+    "Grain": "粒状感",
+    "From how far the page is looked at, so that grainy lines are whole": (
+        "粗い線が途切れないよう、ページをどの距離から見るか"
+    ),
+    "Closely, and where soft lines are torn from afar as well; the simpler drawing is kept": (
+        "近くから見て、柔らかい線が途切れるときは遠くからも見ます"
+    ),
+    "As close as the pen is wide: ink, markers, clean pencil": (
+        "ペンの太さに合わせた距離：インク、マーカー、きれいな鉛筆"
+    ),
+    "At 0.7 of that size: soft pencil, crayon": "その 0.7 倍の大きさ：柔らかい鉛筆、クレヨン",
+    "At 0.55 of that size: charcoal, chalk, rough paper": (
+        "その 0.55 倍の大きさ：木炭、チョーク、粗い紙"
+    ),
+    "Fine": "細かい",
+    "Medium": "中くらい",
+    "Coarse": "粗い",
+    "The lines are grainy: traced from farther away (--grain {0}).": (
+        "線が粗いため、遠くから見てトレースしました（--grain {0}）。"
+    ),
+    "Coarsest": "最も粗い",
+    "At 0.4 of that size: what falls to shreds even so": (
+        "その 0.4 倍の大きさ：それでも途切れる線"
+    ),
     "Lean Network": "軽量ネットワーク",
     "Smaller, in two thirds of the time; cuts grainy lines more": (
         "小さく、時間は約 3 分の 2。ざらついた線は途切れやすい"
