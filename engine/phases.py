@@ -42,7 +42,7 @@ def in_phases(content: bytes) -> InPhases | None:
     network = onnx_file.read(content)
     if any(node.kind not in _KNOWN for node in network.nodes):
         return None
-    network = _without_casts(network)
+    network = network.without_casts()
     inputs: dict[str, int] = {}
     outputs: dict[str, int] = {}
     for node in list(network.nodes):
@@ -76,15 +76,6 @@ def together(phases: Array, step: int) -> Array:
     for row, column in np.ndindex(step, step):
         image[0, :, row::step, column::step] = split[row, column]
     return image
-
-
-def _without_casts(network: Network) -> Network:
-    """Weights come as float32 from a file, so nothing is left to cast."""
-    named = {n.outputs[0]: n.inputs[0] for n in network.nodes if n.kind == "Cast"}
-    weights = {name: network.weights[stored] for name, stored in named.items()}
-    kept = {k: v for k, v in network.weights.items() if k not in named.values()}
-    nodes = [node for node in network.nodes if node.kind != "Cast"]
-    return replace(network, nodes=nodes, weights=kept | weights)
 
 
 def _alone(network: Network, node: Node) -> bool:

@@ -18,6 +18,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 
+from ..arrays.components import components
 from ..errors import InvoluteError
 from ..settings import Settings
 from ..values import Array, Scan
@@ -285,7 +286,7 @@ def likeness(a: Array, b: Array) -> float:
 def _blobs(dark: Array, pen_width: float) -> list[_Blob]:
     """The pieces of ink near an edge that have the size of a hole or mark."""
     height, width = dark.shape
-    count, labels, stats, _ = cv2.connectedComponentsWithStats(dark)
+    count, labels, stats, _ = components(dark)
     x, y, w, h = stats[:, :4].T
     low, high = (share * max(dark.shape) for share in _SIZES)
     middle_x, middle_y = (x + w / 2) / width, (y + h / 2) / height
