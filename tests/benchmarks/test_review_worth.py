@@ -11,7 +11,7 @@ from involute.engine import Settings, vectorize
 from involute.training.routing.labels import labelled
 
 from benchmarks.judged_pages import JudgedPage
-from benchmarks.review import Reviewed, reviewed, wrong_lengths
+from benchmarks.review_worth import Reviewed, reviewed, wrong_lengths
 
 BAR, POST = np.array([(100.0, 500.0), (900, 500)]), np.array([(400.0, 100.0), (400, 900)])
 _SVG = (
