@@ -22,11 +22,12 @@ import cv2
 import numpy as np
 from involute.engine import Settings
 from involute.engine.fills.solids import split_solids
-from involute.engine.scan import paper, read_scan, ruling, wide_lines
+from involute.engine.scan import paper, read_scan, ruling, show_through, wide_lines
 from involute.engine.values import Scan
 from involute.synthesis.composed_pages import Library
-from involute.synthesis.hard_pages import HardPage, hatched, ruled_sheet, several_pens
+from involute.synthesis.hard_pages import HardPage, both_sides, hatched, ruled_sheet, several_pens
 from involute.synthesis.held_out_pages import endless
+from involute.synthesis.line_art import Strokes
 
 from .run_record import Figures
 from .tables import markdown
@@ -48,6 +49,11 @@ CLOSE: dict[str, Sequence[Any]] = {
     "_HATCHED": ((1.2, 0.02), (1.5, 0.01), (1.5, 0.02), (1.5, 0.03), (2.0, 0.02), (99.0, 9.0)),
     "_LITTLE": (0.25, 0.35, 0.45, 0.55),
     "_LIGHT": (0.03, 0.04, 0.06),
+}
+BACKS: dict[str, Sequence[Any]] = {
+    "_SOFTER": (0.6, 0.7, 0.8, 0.85, 0.9),
+    "_AROUND": (0.5, 0.75, 1.0, 1.5),
+    "_PALER": (0.5, 0.6, 0.7, 0.8),
 }
 RULES: dict[str, Sequence[Any]] = {"_MOST_HIDDEN": (0.3, 0.4, 0.5, 0.6, 0.7, 0.8)}
 
@@ -84,7 +90,17 @@ def main(argv: Sequence[str] | None = None) -> Figures:
         with _changed(paper, name, value):
             figures[said] = hatching_lost(close)
         rows.append([said, *(f"{share:.4f}" for share in figures[said].values())])
-    print(markdown(["hatching", *figures[said]], rows))
+    print(markdown(["hatching", *figures[said]], rows), flush=True)
+    rows = []
+    backs = list(
+        _pages(_both_sides(library, options.seed + 3), library, options.pages, options.seed + 4)
+    )
+    scans = [(page, read_scan(page.gray, Settings(sheet=False))) for page in backs]
+    for name, value, said in _tried(show_through, BACKS):
+        with _changed(show_through, name, value):
+            figures[said] = backs_left(scans)
+        rows.append([said, *(f"{share:.4f}" for share in figures[said].values())])
+    print(markdown(["back side", *figures[said]], rows))
     return figures
 
 
@@ -140,6 +156,32 @@ def hatching_lost(pages: Sequence[HardPage]) -> dict[str, float]:
         wanted, lost = wanted + int(page.wanted.sum()), lost + int((page.wanted & ~ink).sum())
         bare, inked = bare + int(page.other.sum()), inked + int((page.other & ink).sum())
     return {"lost": lost / max(1, wanted), "inked": inked / max(1, bare)}
+
+
+def _both_sides(library: Library, seed: int) -> Callable[..., HardPage]:
+    """Sheets with another drawing on their back."""
+    others = endless(np.random.default_rng(seed), library)
+
+    def page(rng: np.random.Generator, strokes: Strokes, size: int) -> HardPage:
+        return both_sides(rng, strokes, [line * (size / 1000) for line in next(others)], size)
+
+    return page
+
+
+def backs_left(pages: Sequence[tuple[HardPage, Scan]]) -> dict[str, float]:
+    """The share of what shows through that is left, and of drawings and their pencil that goes."""
+    shown = left = drawn = gone = 0
+    for page, scan in pages:
+        kept = show_through.without_show_through(scan, Settings()).ink > _LEFT
+        ink, kept = (
+            cv2.resize(mask.view(np.uint8), page.gray.shape[::-1], interpolation=cv2.INTER_NEAREST)
+            > 0
+            for mask in (scan.ink > _LEFT, kept)
+        )
+        shown, left = shown + int((page.wanted & ink).sum()), left + int((page.wanted & kept).sum())
+        drawn += int((page.other & ink).sum())
+        gone += int((page.other & ink & ~kept).sum())
+    return {"left": left / max(1, shown), "drawing gone": gone / max(1, drawn)}
 
 
 def _tried(module: ModuleType, limits: dict[str, Sequence[Any]]) -> Iterator[tuple[str, Any, str]]:
