@@ -61,6 +61,7 @@ def fidelity(
     ink: Array,
     scale: float,
     width_scale: float = 1.0,
+    overlooked: Array | None = None,
 ) -> Fidelity:
     """Compare a drawing with its page.
 
@@ -69,7 +70,10 @@ def fidelity(
         ink: (H, W) float32 in [0, 1], all that was to be traced; working pixels.
         scale: input pixels per working pixel.
         width_scale: how many times too wide the strokes are on purpose.
+        overlooked: (H, W) bool, ink of the page that is not in `ink` though it should be.
     """
+    if overlooked is not None:
+        ink = np.where(overlooked, np.float32(1), ink)
     clear = _without_specks(ink > _CLEAR)
     some = _without_specks(ink > _SOME)
     beside = max(1.0, _BESIDE / scale)

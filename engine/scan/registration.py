@@ -159,7 +159,7 @@ def _moved(scan: Scan, motion: Array) -> Scan:
     if color is not None:
         white = (255, 255, 255)
         color = cv2.warpAffine(color, motion, (width, height), borderValue=white)
-    return replace(scan, ink=np.clip(ink, 0, 1), color=color)
+    return replace(scan, ink=np.clip(ink, 0, 1), color=color, overlooked=None)
 
 
 def _borders(dark: Array, pen_width: float) -> Array:
