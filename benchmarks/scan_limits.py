@@ -4,7 +4,8 @@
 
 Pages of several pens (`synthesis.hard_pages`): how much of the broad lines is found, and how much
 of what is found is none. Ruled sheets: how much of the rules is left, and how much of the drawing
-went with them. Each limit is set to other values around its own.
+went with them. Close hatching: how much of it is lost, and how much bare paper is taken for ink.
+Each limit is set to other values around its own.
 """
 
 from __future__ import annotations
@@ -24,7 +25,7 @@ from involute.engine.fills.solids import split_solids
 from involute.engine.scan import paper, read_scan, ruling, wide_lines
 from involute.engine.values import Scan
 from involute.synthesis.composed_pages import Library
-from involute.synthesis.hard_pages import HardPage, ruled_sheet, several_pens
+from involute.synthesis.hard_pages import HardPage, hatched, ruled_sheet, several_pens
 from involute.synthesis.held_out_pages import endless
 
 from .run_record import Figures
@@ -42,6 +43,11 @@ BROAD: dict[str, Sequence[Any]] = {
     "_SWOLLEN": (1.6, 2.0, 2.6, 4.0, 99.0),
     "_SOLID": (0.85, 0.91, 0.945, 0.96, 0.975),
     "_WIDEST": ((8.0, 16.0), (12.0, 16.0), (16.0, 16.0), (20.0, 16.0)),
+}
+CLOSE: dict[str, Sequence[Any]] = {
+    "_HATCHED": ((1.2, 0.02), (1.5, 0.01), (1.5, 0.02), (1.5, 0.03), (2.0, 0.02), (99.0, 9.0)),
+    "_LITTLE": (0.25, 0.35, 0.45, 0.55),
+    "_LIGHT": (0.03, 0.04, 0.06),
 }
 RULES: dict[str, Sequence[Any]] = {"_MOST_HIDDEN": (0.3, 0.4, 0.5, 0.6, 0.7, 0.8)}
 
@@ -71,7 +77,14 @@ def main(argv: Sequence[str] | None = None) -> Figures:
         with _changed(ruling, name, value):
             figures[said] = rules_left(ruled)
         rows.append([said, *(f"{share:.3f}" for share in figures[said].values())])
-    print(markdown(["rules", *figures[said]], rows))
+    print(markdown(["rules", *figures[said]], rows), flush=True)
+    rows = []
+    close = list(_pages(hatched, library, options.pages, options.seed + 2))
+    for name, value, said in _tried(paper, CLOSE):
+        with _changed(paper, name, value):
+            figures[said] = hatching_lost(close)
+        rows.append([said, *(f"{share:.4f}" for share in figures[said].values())])
+    print(markdown(["hatching", *figures[said]], rows))
     return figures
 
 
@@ -117,6 +130,16 @@ def rules_left(pages: Sequence[HardPage]) -> dict[str, float]:
         gone += int((page.other & (kept > 2 * _GONE) & (ink < _GONE)).sum())
     shares = {kind: a / max(1, b) for kind, (a, b) in sorted(left.items()) if b}
     return shares | {"drawing gone": gone / max(1, drawn)}
+
+
+def hatching_lost(pages: Sequence[HardPage]) -> dict[str, float]:
+    """The share of the pixels of close hatching that is lost, and of bare paper that is ink."""
+    wanted = lost = bare = inked = 0
+    for page in pages:
+        ink = paper.flatten_paper(page.gray.astype(np.float32) / 255) > _GONE
+        wanted, lost = wanted + int(page.wanted.sum()), lost + int((page.wanted & ~ink).sum())
+        bare, inked = bare + int(page.other.sum()), inked + int((page.other & ink).sum())
+    return {"lost": lost / max(1, wanted), "inked": inked / max(1, bare)}
 
 
 def _tried(module: ModuleType, limits: dict[str, Sequence[Any]]) -> Iterator[tuple[str, Any, str]]:

@@ -83,22 +83,21 @@ def read(path: Path) -> Receipt:
 
 
 def standing(output: Path, kind: Format, receipt: Receipt, key: str) -> Standing:
-    """How an output stands to what has this key.
-
-    Raises:
-        OSError: it is there and can't be read.
-    """
+    """How an output stands to what has this key; what can't be read isn't known to be ours."""
     try:
         if not output.is_file():
             return Standing.FOREIGN if output.exists() else Standing.FREE
         made, found = receipt.made.get(output.name, {}), digest(output)
+        whole = _is_whole(output, kind)
     except FileNotFoundError:
         return Standing.FREE
+    except OSError:
+        return Standing.FOREIGN
     if found in made:
         return Standing.DONE if made[found] == key else Standing.FREE
     if not made:
         return Standing.FOREIGN
-    if not _is_whole(output, kind):
+    if not whole:
         return Standing.FREE
     newest = list(made.values())[-1]
     return Standing.SETTLED if newest == key else Standing.EDITED

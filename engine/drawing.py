@@ -118,7 +118,8 @@ class Drawing:
     def compared_with(self, scan: Scan) -> Drawing:
         """The same drawing, checked against the ink of the page that it was traced from."""
         drawn = self.pencil.strokes if self.pencil else self.strokes
-        found = fidelity(drawn, self.fills, scan.ink, self.scale, self.settings.width_scale)
+        wider, left = self.settings.width_scale, scan.overlooked
+        found = fidelity(drawn, self.fills, scan.ink, self.scale, wider, left)
         return replace(self, fidelity=found, warnings=warnings(found, scan.light))
 
     def cleaned_from(self, drawn: Drawing, said: Array) -> Drawing:

@@ -13,6 +13,7 @@ from typing import Any
 import cv2
 import numpy as np
 
+from .arrays.components import components
 from .values import Array, Stroke
 
 _CLEAR, _SOME = 0.5, 0.12  # ink: surely drawn; perhaps drawn
@@ -60,6 +61,7 @@ def fidelity(
     ink: Array,
     scale: float,
     width_scale: float = 1.0,
+    overlooked: Array | None = None,
 ) -> Fidelity:
     """Compare a drawing with its page.
 
@@ -68,7 +70,10 @@ def fidelity(
         ink: (H, W) float32 in [0, 1], all that was to be traced; working pixels.
         scale: input pixels per working pixel.
         width_scale: how many times too wide the strokes are on purpose.
+        overlooked: (H, W) bool, ink of the page that is not in `ink` though it should be.
     """
+    if overlooked is not None:
+        ink = np.where(overlooked, np.float32(1), ink)
     clear = _without_specks(ink > _CLEAR)
     some = _without_specks(ink > _SOME)
     beside = max(1.0, _BESIDE / scale)
@@ -121,7 +126,7 @@ def warnings(found: Fidelity, light: bool) -> tuple[str, ...]:
 
 
 def _without_specks(place: Array) -> Array:
-    _, label, stats, _ = cv2.connectedComponentsWithStats(place.view(np.uint8))
+    _, label, stats, _ = components(place.view(np.uint8))
     kept = np.zeros_like(place)
     kept[place] = (stats[:, cv2.CC_STAT_AREA] >= _SPECK)[label[place]]
     return kept
@@ -191,7 +196,7 @@ def _places(wrong: Array, scale: float) -> tuple[Box, ...]:
     if not wrong.any():
         return ()
     near = cv2.dilate(wrong.view(np.uint8), np.ones((9, 9), np.uint8))
-    count, label, stats, _ = cv2.connectedComponentsWithStats(near)
+    count, label, stats, _ = components(near)
     much = np.bincount(label[wrong], minlength=count)
     order = np.argsort(-much, kind="stable")[:_PLACES]
     boxes = []

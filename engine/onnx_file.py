@@ -9,7 +9,7 @@ another way needs no library for it.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -40,6 +40,14 @@ class Network:
     weights: dict[str, Array]
     inputs: list[str]
     outputs: list[str]
+
+    def without_casts(self) -> Network:
+        """The same network without what makes its stored weights 32-bit floats: they are."""
+        stored = {node.outputs[0]: node.inputs[0] for node in self.nodes if node.kind == "Cast"}
+        kept = {k: v for k, v in self.weights.items() if k not in stored.values()}
+        cast = {name: self.weights[of] for name, of in stored.items()}
+        nodes = [node for node in self.nodes if node.kind != "Cast"]
+        return replace(self, nodes=nodes, weights=kept | cast)
 
 
 def read(content: bytes) -> Network:
@@ -152,14 +160,22 @@ def _node(message: memoryview) -> Node:
     return Node(kind, inputs, outputs, attributes)
 
 
-def write(network: Network) -> bytes:
+def write(network: Network, *, halve: bool = False) -> bytes:
     """The content of a file of convolutions: float32 weights, images of any size in and out.
 
-    Attributes must be whole numbers, as `read` gives them.
+    Attributes must be whole numbers, as `read` gives them. halve: whether weights that are 16-bit
+    floats are stored as such, with a Cast that makes them longer.
     """
-    graph = [_message(1, _written_node(node)) for node in network.nodes]
+    weights, nodes = dict(network.weights), list(network.nodes)
+    for name, values in network.weights.items() if halve else ():
+        small = values.astype(np.float16)
+        if np.array_equal(small, values):
+            del weights[name]
+            weights[f"{name}.half"] = small
+            nodes.insert(0, Node("Cast", [f"{name}.half"], [name], {"to": [1]}))
+    graph = [_message(1, _written_node(node)) for node in nodes]
     graph += [_message(2, b"network")]
-    graph += [_message(5, _written_tensor(*item)) for item in network.weights.items()]
+    graph += [_message(5, _written_tensor(*item)) for item in weights.items()]
     graph += [_message(11, _written_image(name)) for name in network.inputs]
     graph += [_message(12, _written_image(name)) for name in network.outputs]
     form, operations = _VERSIONS
@@ -202,8 +218,9 @@ def _written_node(node: Node) -> bytes:
 
 def _written_tensor(name: str, values: Array) -> bytes:
     dims = [_number(1, size) for size in values.shape]
-    raw = values.astype("<f4").tobytes()
-    return b"".join([*dims, _number(2, 1), _message(8, name), _message(9, raw)])
+    kind = 10 if values.dtype == np.float16 else 1
+    raw = values.astype(_FLOATS[kind]).tobytes()
+    return b"".join([*dims, _number(2, kind), _message(8, name), _message(9, raw)])
 
 
 def _written_image(name: str) -> bytes:

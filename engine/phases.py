@@ -1,6 +1,6 @@
 """Convolutions with strides at the rim of a network, as ordinary ones of the image's phases.
 
-OpenCV convolves a grey page with a stride slowly, and takes a fifth of the centerline network's
+OpenCV convolves a grey page with a stride slowly, and took a fifth of the centerline network's
 time for the transposed convolution at its end. Both equal convolutions without strides: of an
 image whose every second row and column, beginning at each of the first, is a channel of its own
 (its phases), or to such an image. The phases are taken apart and put together by NumPy, outside.
@@ -24,11 +24,12 @@ _KNOWN = _POINTWISE | {"Add", "Cast", "Concat", "Conv", "ConvTranspose"}
 @dataclass(frozen=True)
 class InPhases:
     """content: of an ONNX file. inputs, outputs: name -> its stride, of those that are in phases;
-    the sides of the images have to be multiples of it."""
+    the sides of the images have to be multiples of it. order: the names of all outputs."""
 
     content: bytes
     inputs: dict[str, int]
     outputs: dict[str, int]
+    order: tuple[str, ...]
 
 
 def in_phases(content: bytes) -> InPhases | None:
@@ -42,7 +43,7 @@ def in_phases(content: bytes) -> InPhases | None:
     network = onnx_file.read(content)
     if any(node.kind not in _KNOWN for node in network.nodes):
         return None
-    network = _without_casts(network)
+    network = network.without_casts()
     inputs: dict[str, int] = {}
     outputs: dict[str, int] = {}
     for node in list(network.nodes):
@@ -57,7 +58,7 @@ def in_phases(content: bytes) -> InPhases | None:
             network = _to_phases(network, node, step)
     if not (inputs or outputs):
         return None
-    return InPhases(onnx_file.write(network), inputs, outputs)
+    return InPhases(onnx_file.write(network), inputs, outputs, tuple(network.outputs))
 
 
 def apart(image: Array, step: int) -> Array:
@@ -76,15 +77,6 @@ def together(phases: Array, step: int) -> Array:
     for row, column in np.ndindex(step, step):
         image[0, :, row::step, column::step] = split[row, column]
     return image
-
-
-def _without_casts(network: Network) -> Network:
-    """Weights come as float32 from a file, so nothing is left to cast."""
-    named = {n.outputs[0]: n.inputs[0] for n in network.nodes if n.kind == "Cast"}
-    weights = {name: network.weights[stored] for name, stored in named.items()}
-    kept = {k: v for k, v in network.weights.items() if k not in named.values()}
-    nodes = [node for node in network.nodes if node.kind != "Cast"]
-    return replace(network, nodes=nodes, weights=kept | weights)
 
 
 def _alone(network: Network, node: Node) -> bool:

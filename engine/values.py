@@ -67,6 +67,7 @@ class Scan:
     light: whether it was taken, by itself, for light lines on a dark ground.
     notes: what was left out of it, a sentence each.
     pose: how the page was turned; ink and color are as it is looked at, size as it lay.
+    overlooked: (H, W) bool, clear ink that was taken for paper; None = there is none.
     """
 
     ink: Array
@@ -78,13 +79,16 @@ class Scan:
     light: bool = False
     notes: tuple[str, ...] = ()
     pose: Pose = Pose()
+    overlooked: Array | None = None
 
     def as_it_lay(self) -> Scan:
         """The same page, turned back."""
         if self.pose == Pose():
             return self
         color = None if self.color is None else self.pose.back(self.color)
-        return replace(self, ink=self.pose.back(self.ink), color=color, pose=Pose())
+        left = None if self.overlooked is None else self.pose.back(self.overlooked)
+        ink = self.pose.back(self.ink)
+        return replace(self, ink=ink, color=color, pose=Pose(), overlooked=left)
 
 
 @dataclass(frozen=True, eq=False)

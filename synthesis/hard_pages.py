@@ -1,7 +1,8 @@
 """Held-out pages with the truth that the limits of the scan stage are chosen by.
 
 A page of several pens says which of its pixels are broad lines, and which are shapes, bundles of
-fine lines and fine lines; a sheet ruled on both sides says which are rules and which are drawn.
+fine lines and fine lines; a sheet ruled on both sides says which are rules and which are drawn; a
+page with close hatching says where its ink is, and where paper is bare.
 """
 
 from __future__ import annotations
@@ -14,13 +15,15 @@ import numpy as np
 from .extra_marks import rows
 from .line_art import Array, Rng, Strokes
 from .media import MEDIA, draw, line_spacing, noise, sample
-from .sheet_of_paper import scan, shadow
+from .sheet_of_paper import paper, scan, shadow
 
 _FINE = ("technical pen", "ink", "fineliner", "ballpoint", "pencil")
 _BROAD = ("marker", "brush", "brushpen", "soft pencil", "charcoal", "technical pen")
 _TIMES, _BROADEST = (3.5, 14.0), 60.0  # pens, and px, that a broad line is wide
 _LONG = 4.0  # widths; what is shorter may be line or shape, and counts as neither
 _RULED = (14.0, 70.0)  # px between rules
+_GRAINY = ("charcoal", "soft pencil", "pencil", "coloured pencil", "ballpoint", "ink")
+_CLOSE = (0.8, 1.8)  # pens from one line of dense hatching to the next
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,6 +112,43 @@ def both_sides(rng: Rng, strokes: Strokes, behind: Strokes, size: int) -> HardPa
     return HardPage(page, pale, kept, kind)
 
 
+def hatched(rng: Rng, strokes: Strokes, size: int) -> HardPage:
+    """A drawing with 0 to 4 patches of hatching whose lines nearly touch, on uneven paper.
+
+    wanted: the hatching's ink. other: paper away from all ink.
+    """
+    medium, pen = str(rng.choice(_GRAINY)), rng.uniform(2, 5)
+    ink = _drawn(rng, strokes, medium, pen, size)
+    hatching = np.zeros_like(ink)
+    for _ in range(rng.choice([0, 1, 2, 4])):
+        patch = _patch(rng, size, pen * rng.uniform(*_CLOSE))
+        samples = sample(patch, size)
+        if len(samples) > 1:
+            hatching = np.maximum(hatching, draw(rng, samples, MEDIA[medium], pen, size)[0])
+    ink = 1 - (1 - ink) * (1 - hatching)
+    sheet = paper(rng, size, float(np.median(ink[ink > 0.1])), printed=0.0)
+    full = float(np.quantile(ink[ink > 0.25], 0.8)) if (ink > 0.25).any() else 1.0
+    bare = cv2.dilate((ink > 0.05 * full).astype(np.uint8), np.ones((7, 7), np.uint8)) == 0
+    return HardPage(_scanned(rng, ink, sheet), hatching > 0.5 * full, bare, medium)
+
+
+def _patch(rng: Rng, size: int, gap: float) -> Strokes:
+    """Lines of a hand, 30 to 200 px long, side by side."""
+    long, broad = rng.uniform(30, 200), rng.uniform(20, 160)
+    turn, (x, y) = rng.uniform(0, np.pi), rng.uniform(0.1, 0.9, 2) * size
+    along = np.array([np.cos(turn), np.sin(turn)])
+    across = np.array([-along[1], along[0]])
+    t = np.linspace(0, 1, 12)[:, None]
+    lines = []
+    for at in np.arange(0, broad, gap):
+        near, far = rng.normal(0, 0.15 * gap, 2)
+        start, end = rng.normal(0, 1.5, 2)
+        bend = rng.normal(0, 0.1 * gap) * np.sin(np.pi * t)
+        line = (start + t * (long + end - start)) * along
+        lines.append(line + (at + near + t * (far - near) + bend) * across + (x, y))
+    return [line.astype(np.float32) for line in lines]
+
+
 def _drawn(rng: Rng, strokes: Strokes, medium: str, pen: float, size: int) -> Array:
     """(size, size) ink of some strokes; a fine pen is no wider than its lines lie apart."""
     lines = [line.astype(np.float32) for line in strokes if len(line) > 1]
@@ -140,10 +180,10 @@ def _rules(size: int, pitch: float, turn: float, half: float, start: float) -> A
     return np.clip(half + 0.5 - off, 0, 1)
 
 
-def _scanned(rng: Rng, ink: Array, sheet: float) -> Array:
-    """(S, S) uint8 of ink on paper with some grain, scanned."""
-    paper = sheet + rng.uniform(0, 0.02) * noise(rng, "grain", len(ink))
-    page = paper * (1 - ink) + rng.uniform(0, 0.1) * ink
+def _scanned(rng: Rng, ink: Array, sheet: float | Array) -> Array:
+    """(S, S) uint8 of ink on paper with some grain, scanned; sheet: the paper's tone."""
+    grainy = sheet + rng.uniform(0, 0.02) * noise(rng, "grain", len(ink))
+    page = grainy * (1 - ink) + rng.uniform(0, 0.1) * ink
     if rng.random() < 0.3:
         page = page * shadow(rng, len(ink))
     return np.round(np.clip(scan(rng, page), 0, 1) * 255).astype(np.uint8)

@@ -17,6 +17,7 @@ RUNS = {
     "centerline-losses": ("centerline.compare_losses", "short trainings with other losses"),
     "centerline-average": ("centerline.average", "the mean of two networks"),
     "centerline-export": ("centerline.export_centerline", "write what the engine ships"),
+    "centerline-slim": ("centerline.slim", "leave out of a network what it does not use"),
     "centerline-validate": ("centerline.validate", "figures by medium, on held-out drawings"),
     "centerline-precision": ("centerline.precision", "how exactly ideal lines are found"),
     "centerline-stress": ("centerline.stress", "a picture of hard pages"),

@@ -32,13 +32,14 @@ def write(folder: Path) -> dict[str, str]:
     return found
 
 
-def note(path: Path, *runs: Path) -> None:
+def note(path: Path, *runs: Path, slimmed_from: Path | None = None) -> None:
     """Bring the digests beside a file of weights up to date, where there are any.
 
-    To be called by whoever writes weights, with the folders of the runs that they are from.
+    To be called by whoever writes weights, with the folders of the runs that they are from, or the
+    weights of which they are a part.
     """
     if (path.parent / weights.DIGESTS).exists():
-        lineage.note_weights(path, *runs)
+        lineage.note_weights(path, *runs, slimmed_from=slimmed_from)
         write(path.parent)
 
 

@@ -48,11 +48,15 @@ def of_parent(path: Path) -> dict[str, Any]:
     return found
 
 
-def note_weights(path: Path, *runs: Path) -> None:
-    """Say in lineage.json beside weights which runs (folders) they are from."""
+def note_weights(path: Path, *runs: Path, slimmed_from: Path | None = None) -> None:
+    """Say in lineage.json beside weights which runs (folders), or larger weights, they are from."""
     entries = read(path.parent)
-    entries[path.name] = {"sha256": sha256(path), "exported_at": commit()}
-    entries[path.name] |= {"runs": [_of_run(run) for run in runs]} if runs else {"note": _UNKNOWN}
+    entry: dict[str, Any] = {"sha256": sha256(path), "exported_at": commit()}
+    if slimmed_from:
+        entry["slimmed_from"] = of_parent(slimmed_from)
+    if runs or not slimmed_from:
+        entry |= {"runs": [_of_run(run) for run in runs]} if runs else {"note": _UNKNOWN}
+    entries[path.name] = entry
     write(path.parent, entries)
 
 

@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 import cv2
 import numpy as np
 
+from ..arrays.components import components
 from ..arrays.distance import depth
 from ..values import Array, LineMaps, Scan
 from .classical import classical
@@ -89,7 +90,7 @@ def covered(crest: Array, clear: Array) -> Array:
 
 def _long(place: Array, shortest: float) -> _Pieces:
     """The connected pieces at least as long as that, px."""
-    _, label, stats, _ = cv2.connectedComponentsWithStats(place.view(np.uint8))
+    _, label, stats, _ = components(place.view(np.uint8))
     extent = np.hypot(stats[:, cv2.CC_STAT_WIDTH], stats[:, cv2.CC_STAT_HEIGHT])
     extent[0] = 0
     return _Pieces(label, np.flatnonzero(extent >= shortest), stats)
@@ -131,7 +132,7 @@ def _with_dots(found: Array, clear: Array, uncovered: Array, pen: float) -> Arra
 
     A dot gets a crest just long enough to have a direction, a dash one through its middle.
     """
-    count, label, stats, middle = cv2.connectedComponentsWithStats(clear.view(np.uint8))
+    count, label, stats, middle = components(clear.view(np.uint8))
     size = stats[:, cv2.CC_STAT_AREA]
     whole = np.bincount(label[uncovered], minlength=count) >= size
     extent = stats[:, [cv2.CC_STAT_WIDTH, cv2.CC_STAT_HEIGHT]].max(1)

@@ -12,6 +12,7 @@ import cv2
 import numpy as np
 
 from ..arrays import distance
+from ..arrays.components import components
 from ..arrays.sampling import sample
 from ..settings import Settings
 from ..values import Array, Scan
@@ -101,7 +102,7 @@ def _rest_of_boxes(dark: Array, area: Array, wide: float) -> Array:
     that wide enough to be an area. Hatching, hair and hats are not.
     """
     rest = np.zeros_like(area)
-    count, label, stats, _ = cv2.connectedComponentsWithStats(dark)
+    count, label, stats, _ = components(dark)
     much = np.bincount(label[area > 0], minlength=count)
     share = much / np.maximum(stats[:, cv2.CC_STAT_AREA], 1)
     for piece in np.flatnonzero((share > 0) & (share < _WHOLE)).tolist():

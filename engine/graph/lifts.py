@@ -18,7 +18,7 @@ from ..settings import Settings
 from ..values import Array, LineMaps, PlanarGraph, Scan
 from .clues import available, clues
 from .evidence import Evidence
-from .nearby import near_pairs
+from .nearby import near_between, near_pairs
 from .topology import join, lengths
 
 ARM = 1.5  # pen widths of line on both sides that tell a corner
@@ -398,9 +398,8 @@ def _missed(course: _Course, free: Array) -> list[float]:
     count = np.diff(graph.offsets)
     owner = np.repeat(np.arange(graph.branch_count), count)
     every = np.arange(0, len(graph.points), 2)
-    a, b = near_pairs(np.concatenate([tips, course.points[every]]), 3 * pen).T
-    one = (a < len(free)) & (b >= len(free))  # pairs are ascending
-    a, b = a[one], every[b[one] - len(free)]
+    a, b = near_between(tips, course.points[every], 3 * pen)
+    b = every[b]
     other = owner[b] != branch[a]
     # What hangs on the same vertex as a short branch is near its tip anyway.
     far = graph.half_vertex[free ^ 1]

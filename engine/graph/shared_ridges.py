@@ -127,6 +127,8 @@ def _fitted(curves: Array, through: Array, half: Courses, value: Array) -> tuple
     y = np.einsum("kcni,kci->kcn", x[..., None] ** _POWERS, fit)
     y = y + (heights - y[..., [0, -1]]) @ np.stack([(1 - t) ** FADE, t**FADE])
     result = frame.world(x, y)
+    # Beyond what was compared with the map a cubic may swing away.
+    good &= np.hypot(*np.moveaxis(result - curves, -1, 0)).max((1, 2)) < LIMITS.shared_farthest
     result[against, 1] = result[against, 1, ::-1]
     return result, good
 

@@ -11,6 +11,7 @@ from dataclasses import replace
 import cv2
 import numpy as np
 
+from ..arrays.components import components
 from ..settings import Settings
 from ..values import Array, Scan
 from .hue_peaks import hue_peaks, turn
@@ -139,7 +140,7 @@ def _kept_beside_pencil(ink: Array, pen_width: float) -> Array:
 
 def _touching_specks(strong: Array, strength: Array, reach: int) -> Array:
     """(H, W) bool: small dark spots on faint lines, as where two pencil lines cross."""
-    count, labels, stats, _ = cv2.connectedComponentsWithStats(strong.view(np.uint8))
+    count, labels, stats, _ = components(strong.view(np.uint8))
     faint = cv2.dilate((~strong & (strength > 0.1)).view(np.uint8), np.ones((3, 3), np.uint8))
     touched = np.bincount(labels[faint > 0], minlength=count) > 0
     small = np.maximum(stats[:, cv2.CC_STAT_WIDTH], stats[:, cv2.CC_STAT_HEIGHT]) < 4 * reach

@@ -17,14 +17,10 @@ import numpy as np
 
 from ..errors import InvoluteError
 from ..values import Array
+from .largest import MAX_SIDE, TooLargeError
 
 PDF_DPI = 300.0
 _POINT = 72.0  # to an inch
-_LARGEST = 20_000  # px a side
-
-
-def _too_large() -> InvoluteError:
-    return InvoluteError("it is too large to be read; scale it down to at most 20,000 px a side.")
 
 
 def pdf_pages(data: bytes) -> int:
@@ -37,7 +33,8 @@ def pdf(data: bytes, page: int) -> Array | None:
     """One page of a PDF at 300 dpi; None for a damaged one.
 
     Raises:
-        InvoluteError: it is too large, or locked; the name of the file is to be put before it.
+        TooLargeError: it is.
+        InvoluteError: it is locked; the name of the file is to be put before it.
     """
     import pypdfium2
 
@@ -46,8 +43,8 @@ def pdf(data: bytes, page: int) -> Array | None:
         return None
     try:
         sheet = document[page]
-        if max(sheet.get_size()) * PDF_DPI / _POINT > _LARGEST:
-            raise _too_large()
+        if max(sheet.get_size()) * PDF_DPI / _POINT > MAX_SIDE:
+            raise TooLargeError
         picture: Array = sheet.render(scale=PDF_DPI / _POINT, rev_byteorder=True).to_numpy()
     except pypdfium2.PdfiumError:  # the document is whole, the page is not
         return None
@@ -71,8 +68,8 @@ def heic(data: bytes) -> Array | None:
 
     try:
         file = pillow_heif.open_heif(io.BytesIO(data), convert_hdr_to_8bit=False)
-        if max(file.size) > _LARGEST:
-            raise _too_large()
+        if max(file.size) > MAX_SIDE:
+            raise TooLargeError
         return np.asarray(file)
     except (ValueError, RuntimeError, EOFError, SyntaxError, OSError):
         return None

@@ -23,6 +23,7 @@ from ..errors import InvoluteError
 from ..formats.picture_kinds import Kind, kind_of, read_kinds
 from ..values import Array
 from . import by_libraries, movie, plain_tiff, psd, tga, tiff_directories
+from .largest import MAX_SIDE, TooLargeError
 from .tiff_directories import DamagedTiffError
 
 _ORIENTATION = 0x0112  # EXIF tag
@@ -31,7 +32,6 @@ _HEAD = 64  # bytes that show what a file is
 # bits of a JPEG, and four times as many in runs of empty blocks. Of a PNG, unpacked bytes: 258 in
 # two bits.
 _PER_BYTE = {"GIF": 4096, "JPEG": 1024, "PNG": 1032}
-MAX_SIDE = 20_000  # px
 _REFUSED = 2**30  # px; OpenCV makes no room for more, and says so
 _PNG_CHANNELS = {0: 1, 2: 3, 3: 1, 4: 2, 6: 4}  # by color type
 _FRAME_HEADERS = frozenset({*range(0xC0, 0xD0)} - {0xC4, 0xC8, 0xCC})  # of a JPEG
@@ -64,8 +64,8 @@ def read_image(path: str | PathLike[str], page: int = 0) -> Array:
         picture = None
     except InvoluteError as error:  # of a reader, which knows no name
         raise InvoluteError(f"{path.name}: {error}") from None
-    except (cv2.error, MemoryError) as error:
-        if isinstance(error, MemoryError) or "MAX_IMAGE" in str(error):
+    except (cv2.error, MemoryError, TooLargeError) as error:
+        if isinstance(error, MemoryError | TooLargeError) or "MAX_IMAGE" in str(error):
             raise _too_large(path) from None
         picture = None
     if picture is None:

@@ -13,7 +13,8 @@ import numpy as np
 
 from ..errors import InvoluteError
 from ..values import Array
-from .image_file import MAX_SIDE, read_image
+from .image_file import read_image
+from .largest import MAX_SIDE
 
 Source = str | PathLike[str] | Array
 

@@ -8,15 +8,19 @@ sheet        what lies beyond the sheet in a photograph goes
 straightening  its perspective is taken out, if wanted
 pen_width    how wide its pen is, which decides at what scale it is traced
 paper        paper, shading, grain and printed rules are taken out: what is left is ink
+overlooked   clear ink that went with the paper is remembered for the drawing's check
 """
 
 from __future__ import annotations
+
+from dataclasses import replace
 
 import cv2
 import numpy as np
 
 from ..settings import Settings
 from ..values import Array, Pose, Scan
+from .overlooked import overlooked
 from .paper import flattened
 from .pen_width import measured_pen
 from .picture import MIN_SIDE, Source, as_bytes, checked_picture, darkest_gray, unit
@@ -77,13 +81,17 @@ def read_scan(source: Source, settings: Settings, page: int = 0, turn: bool = Fa
     pen = settings.pen_width * share or measured_pen(gray, ink) or _DEFAULT_PEN
     scale = _working_scale(pen, width, height)
     if ink is None or scale != 1.0:
-        ink, ruled = flattened(unit(_resized(gray, scale)), settings.rules)
+        gray = _resized(gray, scale)
+        ink, ruled = flattened(unit(gray), settings.rules)
+    # What is left out of a ruled page was left out on purpose.
+    left = None if ruled else overlooked(unit(gray), ink)
     if ruled:
         notes = (*notes, "Printed rules were left out.")
     color = as_bytes(_resized(picture, scale)) if picture.ndim == 3 else None
     guessed = light and settings.polarity == "auto"
     pen /= scale
-    return Scan(ink, color, scale / share, size, pen, light=guessed, notes=notes, pose=pose)
+    found = Scan(ink, color, scale / share, size, pen, light=guessed, notes=notes, pose=pose)
+    return replace(found, overlooked=left)
 
 
 def _seen_at(settings: Settings, picture: Array) -> float:

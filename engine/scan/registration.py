@@ -18,6 +18,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 
+from ..arrays.components import components
 from ..errors import InvoluteError
 from ..settings import Settings
 from ..values import Array, Scan
@@ -158,7 +159,7 @@ def _moved(scan: Scan, motion: Array) -> Scan:
     if color is not None:
         white = (255, 255, 255)
         color = cv2.warpAffine(color, motion, (width, height), borderValue=white)
-    return replace(scan, ink=np.clip(ink, 0, 1), color=color)
+    return replace(scan, ink=np.clip(ink, 0, 1), color=color, overlooked=None)
 
 
 def _borders(dark: Array, pen_width: float) -> Array:
@@ -285,7 +286,7 @@ def likeness(a: Array, b: Array) -> float:
 def _blobs(dark: Array, pen_width: float) -> list[_Blob]:
     """The pieces of ink near an edge that have the size of a hole or mark."""
     height, width = dark.shape
-    count, labels, stats, _ = cv2.connectedComponentsWithStats(dark)
+    count, labels, stats, _ = components(dark)
     x, y, w, h = stats[:, :4].T
     low, high = (share * max(dark.shape) for share in _SIZES)
     middle_x, middle_y = (x + w / 2) / width, (y + h / 2) / height

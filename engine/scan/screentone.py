@@ -11,6 +11,7 @@ from dataclasses import replace
 import cv2
 import numpy as np
 
+from ..arrays.components import components
 from ..settings import Settings
 from ..values import Array, Scan
 
@@ -27,7 +28,7 @@ def without_screentone(scan: Scan, settings: Settings) -> Scan:
     if not settings.screentone or settings.provider == "given":
         return scan
     clear = (scan.ink > _CLEAR).view(np.uint8)
-    _, label, stats, middle = cv2.connectedComponentsWithStats(clear, connectivity=4)
+    _, label, stats, middle = components(clear, connectivity=4)
     extent = stats[:, [cv2.CC_STAT_WIDTH, cv2.CC_STAT_HEIGHT]].max(1)
     small = extent <= _DOT * max(scan.pen_width, 2.0)
     small[0] = False

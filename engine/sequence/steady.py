@@ -18,6 +18,7 @@ import numpy as np
 from ..arrays.ragged import offsets_of, owners, ranges, steps
 from ..drawing import Drawing
 from ..graph.editing import Step
+from ..graph.nearby import near_between
 from ..values import Array, PlanarGraph, Stroke
 from .stroke_matching import match_strokes
 
@@ -212,7 +213,7 @@ class _Arms:
 def _on_strokes(arms: _Arms, lines: _Lines, pen: float) -> tuple[Array, Array, Array, Array]:
     """Half-branch, stroke, start and sense of every run, as `_Runs` has them."""
     reach = max(_LEAST_NEAR, _NEAR * pen)
-    arm, there = _close(arms.points, lines.points, reach)
+    arm, there = near_between(arms.points, lines.points, reach)
     order = np.lexsort((lines.way[there], lines.stroke[there], arms.half[arm]))
     arm, there = arm[order], there[order]
     half, stroke, way = arms.half[arm], lines.stroke[there], lines.way[there]
@@ -238,24 +239,6 @@ def _on_strokes(arms: _Arms, lines: _Lines, pen: float) -> tuple[Array, Array, A
     good &= aside <= best[half] + _ASIDE * pen
     start = way_mean - slope * rank_mean
     return half[good], stroke[good], start[good], np.sign(slope)[good]
-
-
-def _close(some: Array, others: Array, reach: float) -> tuple[Array, Array]:
-    """All pairs of points (A, 2) and (B, 2) at most `reach` px apart: numbers (K,) and (K,)."""
-    cell = np.floor(others / reach).astype(np.int64)
-    key = cell[:, 1] * (1 << 32) + cell[:, 0]
-    order = np.argsort(key, kind="stable")
-    key = key[order]
-    home = np.floor(some / reach).astype(np.int64)
-    found = []
-    for row in (-1, 0, 1):  # three cells side by side are one range
-        low = (home[:, 1] + row) * (1 << 32) + home[:, 0] - 1
-        begin, end = np.searchsorted(key, low), np.searchsorted(key, low + 2, "right")
-        a = np.repeat(np.arange(len(some)), end - begin)
-        found.append((a, order[ranges(begin, end - begin)]))
-    a, b = (np.concatenate(part) for part in zip(*found, strict=True))
-    near = ((some[a] - others[b]) ** 2).sum(1) <= reach**2
-    return a[near], b[near]
 
 
 def _said(graph: PlanarGraph, pairs: Array, score: Array, runs: _Runs, pen: float) -> Array:
@@ -301,7 +284,7 @@ def _anew(
 
 def _nearest(points: Array, places: Array, reach: float) -> Array:
     """(K,) the point (P, 2) nearest to each place (K, 2), -1 where none is within `reach` px."""
-    place, point = _close(places, points.astype(np.float64), reach)
+    place, point = near_between(places, points.astype(np.float64), reach)
     away = ((places[place] - points[point]) ** 2).sum(1)
     order = np.lexsort((away, place))
     first = np.searchsorted(place[order], np.arange(len(places)))

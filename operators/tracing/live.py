@@ -21,7 +21,7 @@ def changed(settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> No
     manager = context.window_manager
     if not isinstance(settings.id_data, bpy.types.Scene) or manager is None or bpy.app.background:
         return
-    if part.current(context) is not None:
+    if part.current() is not None:
         _later(_part_again, _PAUSE_PART)
     elif manager.involute_view.live:
         _later(_again, _PAUSE)

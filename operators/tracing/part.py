@@ -13,7 +13,7 @@ import bpy
 import numpy as np
 
 from ...engine import InvoluteError
-from ..grease_pencil import state
+from ..grease_pencil import cels, state
 from ..grease_pencil.core.pixel_map import PixelMap, on_empty
 from ..language import message
 from ..view.view_state import shown_in
@@ -28,6 +28,9 @@ Box = tuple[int, int, int, int]
 
 _MARGIN = 24  # px around a part that are traced as well: its lines don't end where it does
 _LEAST = 8  # px; a side of the smallest part
+_PLAYED = {"SEQUENCE", "MOVIE"}
+NOTHING = "Select an image Empty, or a drawing that was traced."
+BESIDE = "Drag a box over the picture."
 
 
 @dataclass(frozen=True)
@@ -37,16 +40,29 @@ class Page:
     name: of the object that it lies on.
     size: (width, height) px, as Blender or the drawing on it says.
     pixel_map: where its pixels lie in the object.
+    frame: of an Empty that plays; key: of the trace on a drawing. It shows other pictures, too.
     """
 
     name: str
     size: tuple[int, int]
     pixel_map: PixelMap
+    frame: int | None = None
+    key: int | None = None
 
     @property
     def object(self) -> bpy.types.Object | None:
         """The object, unless it is gone."""
         return bpy.data.objects.get(self.name)
+
+    @property
+    def is_seen(self) -> bool:
+        """Can the object be seen, and does it show this picture now?"""
+        obj, frame = self.object, bpy.context.scene.frame_current
+        if obj is None or not obj.visible_get():
+            return False
+        if self.key is not None:
+            return cels.is_grease_pencil(obj) and self.key in state.keys_at(obj.data, frame)
+        return self.frame in (None, frame)
 
     def source(self) -> Source:
         """What there is to trace.
@@ -60,10 +76,8 @@ class Page:
         shown = shown_in(bpy.context, obj)
         if shown is None:
             raise InvoluteError(NOTHING)
-        return sources.noted(state.picture_of(obj.data, shown.trace.key), shown.trace.source)
-
-
-NOTHING = "Select an image Empty, or a drawing that was traced."
+        key = shown.trace.key if self.key is None else self.key
+        return sources.noted(state.picture_of(obj.data, key), shown.trace.source)
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,10 +132,9 @@ def show(part: Part | None) -> None:
     shown = part
 
 
-def current(context: bpy.types.Context) -> Part | None:
+def current() -> Part | None:
     """The part that can be seen; None where there is none."""
-    obj = shown.page.object if shown is not None else None
-    return shown if obj is not None and obj.visible_get() else None
+    return shown if shown is not None and shown.page.is_seen else None
 
 
 def page_of(context: bpy.types.Context) -> Page:
@@ -136,11 +149,13 @@ def page_of(context: bpy.types.Context) -> Page:
             said = "The image {name!r} has no pixels; reload it or choose another."
             raise InvoluteError(message(said, name=obj.data.name))
         size = tuple(obj.data.size)
-        return Page(obj.name, size, on_empty(obj, size))
+        frame = context.scene.frame_current if obj.data.source in _PLAYED else None
+        return Page(obj.name, size, on_empty(obj, size), frame=frame)
     seen = shown_in(context)
     if seen is None:
         raise InvoluteError(NOTHING)
-    return Page(seen.object.name, tuple(seen.trace.drawing.size), seen.pixel_map)
+    size = tuple(seen.trace.drawing.size)
+    return Page(seen.object.name, size, seen.pixel_map, key=seen.trace.key)
 
 
 def box_around(places: np.ndarray, page: Page) -> Box:
@@ -156,9 +171,6 @@ def box_around(places: np.ndarray, page: Page) -> Box:
     if box[2] - box[0] < _LEAST or box[3] - box[1] < _LEAST:
         raise InvoluteError(BESIDE)
     return box
-
-
-BESIDE = "Drag a box over the picture."
 
 
 def _inside(box: Box, size: tuple[int, int]) -> Box:

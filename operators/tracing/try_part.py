@@ -63,7 +63,7 @@ class INVOLUTE_OT_try_part(JobOperator, bpy.types.Operator):
             page = parts.page_of(context)
             corners = [self.box[:2], self.box[2:]]
             part = Part(page, parts.box_around(np.array(corners, float), page))
-        elif (part := parts.current(context)) is None:
+        elif (part := parts.current()) is None:
             raise InvoluteError(parts.BESIDE)
         # Both are found on a whole page, and move it.
         settings = replace(engine_settings(scene_settings(context.scene)), straighten=False)
@@ -88,7 +88,7 @@ class _OnPart:
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Is there one?"""
-        return parts.current(context) is not None
+        return parts.current() is not None
 
 
 class INVOLUTE_OT_drop_part(_OnPart, bpy.types.Operator):
@@ -117,12 +117,12 @@ class INVOLUTE_OT_keep_part(_OnPart, bpy.types.Operator):
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
         """Is there one, and were there lines?"""
-        part = parts.current(context)
+        part = parts.current()
         return context.mode == "OBJECT" and part is not None and part.drawing is not None
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Put it where it was shown."""
-        part = parts.current(context)
+        part = parts.current()
         page, drawing = part.page.object, part.drawing
         obj = new_object(part.crop.name)
         obj.matrix_world = page.matrix_world

@@ -57,7 +57,7 @@ def names(bpy) -> set[str]:
 def test_a_part_of_an_image_empty(bpy, parts, empty):
     before, settings = names(bpy), bpy.context.scene.involute
     assert bpy.ops.involute.try_part(box=RIGHT) == {"FINISHED"}
-    shown = parts.current(bpy.context)
+    shown = parts.current()
     assert (shown.box, shown.around) == (RIGHT, (186, 0, 400, 164))
     lengths = sorted(np.linalg.norm(s.points[-1] - s.points[0]) for s in shown.drawing.strokes)
     assert lengths[-1] == pytest.approx(150, abs=4)  # the margin of the left half is in there, too
@@ -67,12 +67,12 @@ def test_a_part_of_an_image_empty(bpy, parts, empty):
     # A setting is changed: the same part, without being asked for its place again.
     settings.min_length = 8.0
     assert bpy.ops.involute.try_part() == {"FINISHED"}
-    changed = parts.current(bpy.context)
+    changed = parts.current()
     assert changed.crop is shown.crop
     assert len(changed.drawing.strokes) < len(shown.drawing.strokes)
     assert changed.drawing.settings.min_length == 8.0
     assert bpy.ops.involute.drop_part() == {"FINISHED"}
-    assert parts.current(bpy.context) is None
+    assert parts.current() is None
     assert names(bpy) == before
     with pytest.raises(RuntimeError, match="Drag a box"):
         bpy.ops.involute.try_part()
@@ -83,7 +83,7 @@ def test_a_part_of_a_traced_drawing_and_of_pixels_in_memory(bpy, parts, scan):
     obj = bpy.context.active_object
     assert parts.page_of(bpy.context).name == obj.name
     assert bpy.ops.involute.try_part(box=RIGHT) == {"FINISHED"}
-    of_file = parts.current(bpy.context).drawing
+    of_file = parts.current().drawing
     image = bpy.data.images.new("painted", 64, 48, alpha=True)
     pixels = np.ones((48, 64, 4), np.float32)
     pixels[20:23, 8:56, :3] = 0.0  # rows from the bottom
@@ -93,7 +93,7 @@ def test_a_part_of_a_traced_drawing_and_of_pixels_in_memory(bpy, parts, scan):
     bpy.context.collection.objects.link(painted)
     bpy.context.view_layer.objects.active = painted
     assert bpy.ops.involute.try_part(box=(0, 0, 64, 48)) == {"FINISHED"}
-    (line,) = parts.current(bpy.context).drawing.strokes
+    (line,) = parts.current().drawing.strokes
     np.testing.assert_allclose(line.points[:, 1], 48 - 21.5, atol=0.7)
     assert len(of_file.strokes) >= 2
 
@@ -101,22 +101,41 @@ def test_a_part_of_a_traced_drawing_and_of_pixels_in_memory(bpy, parts, scan):
 def test_it_goes_when_the_page_is_traced(bpy, parts, empty):
     bpy.ops.involute.try_part(box=RIGHT)
     bpy.ops.involute.trace()
-    assert parts.current(bpy.context) is None
+    assert parts.current() is None
     bpy.ops.involute.try_part(box=RIGHT)
     bpy.ops.involute.trace_again(smoothing=0.9)
-    assert parts.current(bpy.context) is None
+    assert parts.current() is None
 
 
 def test_it_goes_with_its_object(bpy, parts, empty):
     bpy.ops.involute.try_part(box=RIGHT)
     empty.hide_set(True)
-    assert parts.current(bpy.context) is None
+    assert parts.current() is None
     empty.hide_set(False)
-    assert parts.current(bpy.context) is not None
+    assert parts.current() is not None
     bpy.data.objects.remove(empty)
-    assert parts.current(bpy.context) is None
+    assert parts.current() is None
     bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     assert parts.shown is None
+
+
+def test_it_is_seen_where_its_picture_is(bpy, parts, empty, scan):
+    """Not over another frame of what plays, nor over another keyframe."""
+    bpy.ops.involute.try_part(box=RIGHT)
+    bpy.context.scene.frame_set(5)
+    assert parts.current() is not None  # a still picture is the same at every frame
+    lies = parts.page_of(bpy.context).pixel_map
+    page = parts.Page(empty.name, (400, 200), lies, frame=5)  # of what plays
+    assert page.is_seen
+    bpy.context.scene.frame_set(6)
+    assert not page.is_seen
+    bpy.ops.involute.trace(filepath=str(scan))
+    bpy.ops.involute.try_part(box=RIGHT)
+    assert parts.current() is not None
+    bpy.context.scene.frame_set(2)  # before the keyframe
+    assert parts.current() is None
+    with pytest.raises(RuntimeError, match="Drag a box"):
+        bpy.ops.involute.try_part()
 
 
 def test_what_is_kept_lies_where_it_was_shown(bpy, part, parts, empty):
@@ -145,7 +164,7 @@ def test_what_is_kept_lies_where_it_was_shown(bpy, part, parts, empty):
 def test_what_cannot_be_tried_is_said(bpy, part, parts, empty, tmp_path):
     with pytest.raises(RuntimeError, match="Drag a box"):
         bpy.ops.involute.try_part(box=(500, 10, 600, 90))
-    assert parts.current(bpy.context) is None
+    assert parts.current() is None
     page = parts.page_of(bpy.context)
     other = parts.Part(parts.Page(page.name, (300, 200), page.pixel_map), RIGHT)
     error = part("engine").InvoluteError

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import cv2
 import numpy as np
 import pytest
@@ -9,6 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from involute.engine import Drawing, Settings, vectorize
 from involute.engine.fidelity import Fidelity, fidelity, warnings
+from involute.engine.scan import paper, read_scan
 from involute.engine.values import Stroke
 
 SHAPE = (120, 160)
@@ -67,6 +70,25 @@ def test_wider_strokes_on_purpose_cover_no_more():
     ink = ink_of(ONE, ((20, 45), (140, 45)))
     assert fidelity([thick], [], ink, 1.0).lost == 0
     assert fidelity([thick], [], ink, 1.0, width_scale=10.0).lost > 0.4
+
+
+def test_ink_that_was_taken_for_paper_is_lost_too(monkeypatch):
+    rng = np.random.default_rng(4)
+    flow = np.clip(0.5 + 0.25 * cv2.GaussianBlur(rng.normal(size=(240, 320)), (0, 0), 1) * 3, 0, 1)
+    page = np.zeros((240, 320))
+    for y in range(60, 180, 6):
+        cv2.line(page, (80, y), (240, y), 1, 5)
+    cv2.line(page, (30, 20), (40, 220), 1, 4)
+    gray = 255 * 0.9 * (1 - cv2.GaussianBlur(page * flow, (0, 0), 1.0))
+    picture = np.clip(gray + rng.normal(0, 2, page.shape), 0, 255).astype(np.uint8)
+    fast = Settings(provider="classical", router="geometric")
+    assert read_scan(picture, fast).overlooked is None
+    monkeypatch.setattr(paper, "_HATCHED", (99.0, 9.0))
+    scan, drawing = read_scan(picture, fast), vectorize(picture, fast)
+    assert np.count_nonzero(scan.overlooked) > 500
+    blind = drawing.compared_with(replace(scan, overlooked=None))
+    assert drawing.fidelity.lost > blind.fidelity.lost + 0.05
+    assert "of the ink is not in the drawing" in drawing.warnings[0]
 
 
 @pytest.mark.parametrize("curve", ["polyline", "bezier"])

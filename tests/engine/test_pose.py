@@ -58,6 +58,15 @@ def test_a_turned_page_gives_the_same_drawing(pen, pose):
     assert found.fidelity.lost == pytest.approx(wanted.fidelity.lost, abs=0.01)
 
 
+@pytest.mark.parametrize("move", [(1, 1), (2, 5), (0, -7)])
+def test_a_drawing_is_the_same_wherever_it_lies_on_its_sheet(move):
+    picture = page()
+    wanted, found = vectorize(picture), vectorize(np.roll(picture, move, (0, 1)))
+    assert len(found.strokes) == len(wanted.strokes)
+    for ours, theirs in zip(found.strokes, wanted.strokes, strict=True):
+        np.testing.assert_allclose(ours.points - move[::-1], theirs.points, atol=0.05)
+
+
 def test_a_page_may_be_looked_at_as_it_lies():
     picture = page()
     pose = pose_of(picture)

@@ -286,6 +286,22 @@ def test_a_drawing_has_the_same_ink_wherever_it_lies(shift):
     np.testing.assert_allclose(ink, again, atol=1e-3)
 
 
+@pytest.mark.parametrize("gap", [5, 6, 8])
+@pytest.mark.parametrize("tone", [0.75, 0.95])
+def test_close_hatching_of_a_grainy_pen_is_ink_though_it_hides_the_paper(gap, tone):
+    rng = np.random.default_rng(gap)
+    lines = [[[120, y], [230, y]] for y in range(60, 200, gap)]
+    hatching = 1 - drawn((260, 360), 5, *lines) / 255
+    outline = 1 - drawn((260, 360), 4, [[30, 20], [40, 240]], [[30, 20], [330, 30]]) / 255
+    tooth = cv2.GaussianBlur(rng.normal(size=(260, 360)), (0, 0), 1.2)
+    flow = np.clip(0.6 + 0.2 * tooth / tooth.std(), 0.1, 1)
+    soft = cv2.GaussianBlur(np.maximum(hatching, outline) * flow, (0, 0), 1.0)
+    grain = rng.normal(0, 0.01, soft.shape)
+    ink = flatten_paper((tone * (1 - soft) + grain).astype(np.float32))
+    assert (ink[(hatching > 0.9) & (flow > 0.5)] > 0.3).mean() > 0.98
+    assert (ink[cv2.dilate(soft, np.ones((9, 9))) < 0.02] > 0.2).mean() < 1e-3
+
+
 def test_specks_do_not_pass_for_the_pen():
     line = 255.0 - drawn((400, 600), 2, [[30, 200], [570, 260]])
     rng = np.random.default_rng(3)

@@ -33,7 +33,7 @@ _INK = 0.45  # opacity of the ink around a stroke's middle
 
 def draw_part(context: bpy.types.Context) -> None:
     """POST_VIEW: the part in the plane of its page."""
-    part = current(context)
+    part = current()
     if part is None:
         return
     palette = palette_of(context)

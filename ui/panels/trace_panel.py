@@ -91,7 +91,7 @@ def _what_to_trace(
 
 def _part(column: bpy.types.UILayout, context: bpy.types.Context) -> None:
     """Trying the settings on a part; always as high, so that nothing moves while it is traced."""
-    part = parts.current(context)
+    part = parts.current()
     column.operator(INVOLUTE_OT_choose_part.bl_idname, icon="SELECT_SET", depress=part is not None)
     if part is None:
         return
