@@ -60,6 +60,8 @@ def simplest(close: Drawing, look: Callable[[str], Drawing]) -> tuple[Drawing, s
             `Settings.grain`.
     """
     coarse = look("coarse")
+    if len(coarse.fills) < len(close.fills):
+        return close, "fine"  # an ink drawing: its solid areas fall apart from afar
     if not _says_as_much(coarse, close, _COARSE):
         if _left(coarse, close) < _HOPE and _says_as_much(seen := look("medium"), close, _MEDIUM):
             return seen, "medium"
@@ -72,9 +74,11 @@ def simplest(close: Drawing, look: Callable[[str], Drawing]) -> tuple[Drawing, s
 
 
 def _says_as_much(drawing: Drawing, than: Drawing, share: float) -> bool:
-    """Whether a drawing has the ink and the length of another one in that small a share of its
-    strokes."""
+    """Whether a drawing has the ink, the length and the solid areas of another one in that small a
+    share of its strokes."""
     left = _left(drawing, than)
+    if len(drawing.fills) < len(than.fills):
+        return False
     lost = [one.fidelity.lost if one.fidelity else 0.0 for one in (drawing, than)]
     if left >= share or lost[0] > lost[1] + _LOST:
         return False

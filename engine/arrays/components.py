@@ -10,6 +10,7 @@ from ..values import Array
 # Of the page. OpenCV's own statistics take 4.5 ms a megapixel, whatever is on it; these about 30 ms
 # for each megapixel that is dark.
 _MUCH = 0.12
+_LARGE = 16_000_000  # px; ours take 60 bytes for each dark one, which large pages have no room for
 
 
 def components(dark: Array, connectivity: int = 8) -> tuple[int, Array, Array, Array]:
@@ -23,7 +24,7 @@ def components(dark: Array, connectivity: int = 8) -> tuple[int, Array, Array, A
         pixel's piece, light 0; (N, 5) int32 left, top, width, height and area of each piece, and
         (N, 2) its middle. Of row 0, the light, only the area is told.
     """
-    if cv2.countNonZero(dark) > _MUCH * dark.size:
+    if dark.size > _LARGE or cv2.countNonZero(dark) > _MUCH * dark.size:
         return cv2.connectedComponentsWithStats(dark, connectivity=connectivity)
     count, label = cv2.connectedComponents(dark, connectivity=connectivity)
     at = np.flatnonzero(dark != 0)  # of bool it is many times as quick

@@ -80,12 +80,15 @@ def covered(crest: Array, clear: Array) -> Array:
     """
     if not crest.any():
         return crest
+    deep = depth(clear.view(np.uint8))[crest]  # before the two large arrays that follow
     away, nearest = cv2.distanceTransformWithLabels(
         (~crest).astype(np.uint8), cv2.DIST_L2, cv2.DIST_MASK_5, labelType=cv2.DIST_LABEL_PIXEL
     )
     half = np.zeros(int(nearest.max()) + 1, np.float32)
-    half[nearest[crest]] = depth(clear.view(np.uint8))[crest]
-    return away <= half[nearest] + _BESIDE
+    half[nearest[crest]] = deep
+    reach = half[nearest]
+    reach += _BESIDE
+    return away <= reach
 
 
 def _long(place: Array, shortest: float) -> _Pieces:

@@ -180,7 +180,7 @@ class INVOLUTE_OT_trace_sequence(
         obj.matrix_world = matrix
         context.scene.collection.objects.link(obj)
         self._target = obj.name
-        if empty is not None and self.show_scan:
+        if self.show_scan:
             pale(empty)
             if not fits_camera(context, self.place):
                 put_paper(obj, size, self._pixel_map)

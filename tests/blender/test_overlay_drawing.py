@@ -66,3 +66,38 @@ def test_a_redraw_without_change_makes_nothing(bpy, part, draw):
     assert len(kept) == len(made) + 2  # the lines and the cards with the one that is pointed at
     view.show_overlay = False
     assert not draw()[..., 3].any()
+
+
+def test_a_part_is_drawn_and_goes(bpy, part, draw, tmp_path):
+    """Also where the junction overlay is off; and nothing is made anew in a redraw."""
+    part("engine.scan")  # brings OpenCV
+    import cv2
+
+    paper = np.full((120, 160), 245, np.uint8)
+    cv2.line(paper, (10, 60), (150, 60), 20, 4, cv2.LINE_AA)
+    cv2.circle(paper, (80, 90), 20, 20, cv2.FILLED)
+    cv2.imwrite(str(tmp_path / "page.png"), paper)
+    empty = bpy.data.objects.new("Reference", None)
+    empty.empty_display_type, empty.data = (
+        "IMAGE",
+        bpy.data.images.load(str(tmp_path / "page.png")),
+    )
+    bpy.context.collection.objects.link(empty)
+    bpy.context.view_layer.objects.active = empty
+    bpy.context.window_manager.involute_view.show_overlay = False
+    assert not draw()[..., 3].any()
+    try:
+        assert bpy.ops.involute.try_part(box=(0, 0, 160, 120)) == {"FINISHED"}
+        kept = part("ui.overlay.drawn_batches")._kept
+        kept.clear()
+        first = draw()
+        seen = first[first[..., 3] > 0].astype(int)
+        assert (np.ptp(seen[:, :3], axis=1) > 60).any()  # a stroke in its color
+        (made,) = kept.values()
+        np.testing.assert_array_equal(draw(), first)
+        assert [id(one) for one in kept.values()] == [id(made)]
+        bpy.ops.involute.drop_part()
+        assert not draw()[..., 3].any()
+    finally:
+        bpy.context.window_manager.involute_view.show_overlay = True
+        part("operators.tracing.part").show(None)

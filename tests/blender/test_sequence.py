@@ -64,6 +64,7 @@ def test_a_folder_becomes_keyframes_and_gaps_are_holds(bpy, part, quick, tmp_pat
 def test_start_and_step(bpy, part, quick, tmp_path):
     folder = make_pages(part, tmp_path / "walk", [3, 4, 6])
     obj = quick(directory=str(folder), own_start=True, start=101, step=2)
+    assert part("operators.tracing.scan_behind").paper_of(obj) is not None
     assert [frame for frame, _ in keyframes(obj)["Black"]] == [101, 103, 107]
 
 

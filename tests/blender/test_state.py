@@ -356,6 +356,52 @@ def test_what_undo_took_back_is_saved(bpy, part, traced, forget, tmp_path):
     assert_same(strokes_in(part, obj, pixel_map), drawing_of(part, obj).strokes)
 
 
+@pytest.mark.parametrize(
+    "root", ["text", {"version": 99, "traces": {}}, {"version": 1, "traces": 5}]
+)
+def test_what_cannot_be_read_is_saved_as_it_is(bpy, part, traced, forget, tmp_path, root):
+    obj, pixel_map = traced
+    before = strokes_in(part, obj, pixel_map)
+    del obj.data["involute"]
+    obj.data["involute"] = root
+    forget()
+    path = str(tmp_path / "odd.blend")
+    assert bpy.ops.wm.save_as_mainfile(filepath=path) == {"FINISHED"}
+    bpy.ops.wm.open_mainfile(filepath=path, load_ui=False)
+    obj = bpy.data.objects["Ink"]
+    kept = obj.data["involute"]
+    assert (kept.to_dict() if hasattr(kept, "to_dict") else kept) == root
+    for (points, _), (old, _) in zip(strokes_in(part, obj, pixel_map), before, strict=True):
+        np.testing.assert_array_equal(points, old)
+
+
+def test_what_a_stroke_still_needs_is_not_forgotten(bpy, part, traced):
+    obj, _ = traced
+    state = part("operators.grease_pencil.state")
+    (key,) = state.keys_at(obj.data, 1)
+    state.forget(obj.data, key)
+    assert len(state.load(obj.data, key).drawing.junctions) == 9
+    cel_of(obj).remove_strokes(indices=list(range(1, len(cel_of(obj).strokes))))
+    state.forget(obj.data, key)
+    assert state.load(obj.data, key).key == key
+    cel_of(obj).remove_strokes()
+    state.forget(obj.data, key)
+    assert list(obj.data["involute"]["traces"].keys()) == []
+    assert state.keys_at(obj.data, 1) == []
+
+
+def test_damaged_doubts_count_as_none(bpy, part, traced, forget):
+    obj, _ = traced
+    state = part("operators.grease_pencil.state")
+    count = entry_of(obj)["doubtful"]
+    assert state.doubtful_frames(obj.data) == {1: count}
+    put(entry_of(obj), "doubtful", "many")
+    forget()
+    assert state.doubtful_frames(obj.data) == {1: 0}
+    del obj.data["involute"]
+    assert state.doubtful_frames(obj.data) == {1: 0}
+
+
 # --- objects that are moved, joined, separated ---------------------------------------------------
 
 

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from involute.engine.arrays import components as module
 from involute.engine.arrays.components import components
 
 
@@ -47,3 +48,11 @@ def test_a_large_light_page_has_the_same_pieces(connectivity):
     np.testing.assert_array_equal(stats[1:], expected[2][1:])
     assert stats[0, cv2.CC_STAT_AREA] == expected[2][0, cv2.CC_STAT_AREA]
     np.testing.assert_array_equal(middle[1:], expected[3][1:])
+
+
+def test_pages_too_large_for_it_take_no_more_memory_than_opencv_does(monkeypatch):
+    monkeypatch.setattr(module, "_LARGE", 100)
+    monkeypatch.setattr(module.np, "flatnonzero", None)  # the first that would take some
+    page = np.zeros((20, 30), np.uint8)
+    page[3:5, 4:20] = 1
+    assert components(page)[2][1].tolist() == [4, 3, 16, 2, 32]

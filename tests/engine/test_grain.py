@@ -132,3 +132,9 @@ def test_a_sequence_is_looked_at_as_suits_its_first_frame(
 def test_what_says_how_it_is_seen_is_kept_to(charcoal: np.ndarray) -> None:
     assert grain_of(charcoal, Settings()) == "coarse"
     assert grain_of(charcoal, Settings(grain="medium")) == "medium"
+
+
+def test_solid_areas_are_not_given_up_for_fewer_strokes() -> None:
+    """The trousers, feet and ears of examples/hippopotamus.jpg are solid only from close by."""
+    scan = str(Path(__file__).parents[2] / "examples" / "hippopotamus.jpg")
+    assert grain_of(scan, Settings()) == "fine"

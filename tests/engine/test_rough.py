@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import cv2
 import numpy as np
 import pytest
@@ -84,6 +86,11 @@ def test_automatic_tells_rough_from_clean():
     once = vectorize(page(lines), AUTO)
     assert once.pencil is None
     assert not any("rough" in note for note in once.notes)
+
+
+def test_automatic_leaves_a_clean_page_with_lines_beside_each_other():
+    path = Path(__file__).parents[2] / "benchmarks" / "data" / "openclipart_uccello_profil.jpg"
+    assert vectorize(path, AUTO).pencil is None
 
 
 def test_hatching_stays():
