@@ -308,7 +308,7 @@ class Settings:
         (
             "lean",
             "Lean Network",
-            "Smaller, in two thirds of the time; cuts grainy lines more",
+            "Smaller, in three quarters of the time; cuts grainy lines more",
         ),
         ("classical", "Ridge Filter", "No learning; for very clean lines"),
         ("given", "Picture Is Centerlines", "Thin white lines on black, made elsewhere"),

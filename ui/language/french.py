@@ -153,8 +153,8 @@ TEXTS = {
         "À 0,4 de cette taille : ce qui reste en lambeaux malgré tout"
     ),
     "Lean Network": "Réseau léger",
-    "Smaller, in two thirds of the time; cuts grainy lines more": (
-        "Plus petit, en deux tiers du temps ; coupe davantage les traits granuleux"
+    "Smaller, in three quarters of the time; cuts grainy lines more": (
+        "Plus petit, en trois quarts du temps ; coupe davantage les traits granuleux"
     ),
     "Ridge Filter": "Filtre de crêtes",
     "No learning; for very clean lines": "Sans apprentissage ; pour des lignes très propres",

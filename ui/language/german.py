@@ -161,8 +161,8 @@ TEXTS = {
         "Bei 0,4 dieser Größe: was auch so noch in Fetzen kommt"
     ),
     "Lean Network": "Schlankes Netz",
-    "Smaller, in two thirds of the time; cuts grainy lines more": (
-        "Ein kleineres in zwei Dritteln der Zeit; zerlegt körnige Linien öfter"
+    "Smaller, in three quarters of the time; cuts grainy lines more": (
+        "Ein kleineres in drei Vierteln der Zeit; zerlegt körnige Linien öfter"
     ),
     "Ridge Filter": "Gratfilter",
     "No learning; for very clean lines": "Ohne Lernen; für sehr saubere Linien",

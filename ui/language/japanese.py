@@ -151,8 +151,8 @@ TEXTS = {
         "その 0.4 倍の大きさ：それでも途切れる線"
     ),
     "Lean Network": "軽量ネットワーク",
-    "Smaller, in two thirds of the time; cuts grainy lines more": (
-        "小さく、時間は約 3 分の 2。ざらついた線は途切れやすい"
+    "Smaller, in three quarters of the time; cuts grainy lines more": (
+        "小さく、時間は約 4 分の 3。ざらついた線は途切れやすい"
     ),
     "Ridge Filter": "稜線フィルター",
     "No learning; for very clean lines": "学習なし。とてもきれいな線向け",
