@@ -40,6 +40,8 @@ def build(page: Page, walks: Sequence[Walk]) -> list[Stroke]:
     corner = find_corners(raw, lines)
     points = sharpen(raw, lines, corner, page.pen, page.size)
     points = _with_length(smooth(points, lines, corner, page.settings.smoothing), raw, lines)
+    # Strong smoothing swings beyond the page where a line turns at its edge.
+    points = points.clip(np.minimum(raw.min(0), 0.0), np.maximum(raw.max(0), page.size))
     widths, opacity = _ink(page, lines)
     kept, handles = _few(page, lines, corner, points, widths, opacity)
     kept |= _drawn_together(points, lines, kept, handles)

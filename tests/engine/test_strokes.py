@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import cv2
 import numpy as np
 import pytest
 import shapely
@@ -389,3 +390,17 @@ def test_every_stroke_of_noise_has_a_length(seed: int, asked: Settings) -> None:
     strokes = vectorize(noise, replace(asked, min_length=0.0, corners=-1.0)).strokes
     assert len(strokes) > 40
     assert min(np.ptp(stroke.points, axis=0).max() for stroke in strokes) > 1e-3
+
+
+@pytest.mark.parametrize("seed", [17, 31, 32, 40])
+def test_the_strongest_smoothing_stays_on_the_page(seed: int) -> None:
+    """Lines that turn at the edge swung up to 1.9 px beyond it."""
+    rng, page = np.random.default_rng(seed), np.zeros((64, 48), np.uint8)
+    line = rng.uniform(2, 44, (6, 2))
+    line[2], line[3] = (47, rng.uniform(10, 50)), (47, rng.uniform(10, 50))
+    line[4] = rng.uniform(5, 40), 62
+    cv2.polylines(page, [(line * 16).astype(np.int32)], False, 255, 1, cv2.LINE_AA, 4)
+    drawing = vectorize(page, Settings(provider="given", pen_width=3.0, smoothing=1.0))
+    points = np.concatenate([stroke.points for stroke in drawing.strokes])
+    assert points.min() >= 0
+    assert (points <= (48, 64)).all()
