@@ -21,6 +21,7 @@ from .topology import connected, join, lengths, select
 STEP = 2.0  # px from point to point, at most: what lies near is found by the middles of segments
 _LEAST_TOUCH = 1.0  # px; hairlines touch from as far
 _WIDEST = 12.0  # px; lines wider than that reach no farther: working pages have pens of some 3 px
+_PARALLEL = 1e-9  # sine of an angle; less is rounding, where one line lies upon another one
 _WITHIN = 1e-6  # of a segment at either end, so that no crossing falls between two segments
 
 
@@ -119,7 +120,8 @@ def _crossings(ink: _Ink) -> tuple[Array, Array, Array]:
     with np.errstate(divide="ignore", invalid="ignore"):
         s = ((q - p)[:, 0] * e[:, 1] - (q - p)[:, 1] * e[:, 0]) / cross
         t = ((q - p)[:, 0] * d[:, 1] - (q - p)[:, 1] * d[:, 0]) / cross
-    hit = np.abs(np.stack([s, t]) - 0.5).max(0) <= 0.5 + _WITHIN  # False for parallels, too
+    hit = np.abs(np.stack([s, t]) - 0.5).max(0) <= 0.5 + _WITHIN
+    hit &= np.abs(cross) > _PARALLEL * np.hypot(*d.T) * np.hypot(*e.T)
     i, j, s, t = i[hit], j[hit], s[hit], t[hit]
     place = points[i] + s[:, None] * (points[i + 1] - points[i])
     way = [ink.at[k] + share * (ink.at[k + 1] - ink.at[k]) for k, share in ((i, s), (j, t))]

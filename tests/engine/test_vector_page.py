@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from involute.engine import Drawing, InvoluteError, Settings, vectorize
 from involute.engine.graph.from_lines import graph_of_lines
@@ -142,6 +142,7 @@ def test_what_holds_no_lines_is_said(text, says, tmp_path):
     st.lists(st.lists(st.tuples(*[st.integers(0, 60)] * 2), min_size=2, max_size=5), max_size=8),
     st.floats(0.2, 8),
 )
+@example([[(10, 1), (0, 5), (5, 54)]] * 2, 1.0)  # rounding made crossings all along both
 def test_any_lines_make_a_sound_graph_that_covers_them(lines, width):
     lines = [np.array(line, np.float64) for line in lines]
     count = len(lines)
