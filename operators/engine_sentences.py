@@ -35,6 +35,10 @@ SENTENCES = (
     "What shows through from the back was left out: {0} of the ink.",
     "Printed rules were left out.",
     "The lines are grainy: traced from farther away (--grain {0}).",
+    (
+        "The picture has white areas and is not of centerlines, thin white lines on black; "
+        "choose another --provider."
+    ),
     "Left out as no part of the drawing: {0}.",
     "dark borders of the scan",
     "{0} punched holes",

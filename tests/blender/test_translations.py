@@ -77,7 +77,7 @@ ENGINE = (
         "scan/movie",
     ),
     *("scan/psd", "centerline/backends", "routing/network", "sequence/frames"),
-    "formats/svg_lines",
+    *("formats/svg_lines", "centerline/given"),
 )
 FOR_PROGRAMS = (
     "Lines that follow each other",

@@ -185,3 +185,11 @@ def test_settings_are_checked():
         Settings(polarity="sideways")
     with pytest.raises(InvoluteError, match="smoothing"):
         Settings(smoothing=2.0)
+
+
+def test_paper_is_no_picture_of_centerlines():
+    """Thinning a white page of 8 megapixels took most of a minute."""
+    with pytest.raises(InvoluteError, match="not of centerlines"):
+        vectorize(drawn(SCENE), Settings(provider="given"))
+    white = 255 - drawn(SCENE, width=1.5)
+    assert len(vectorize(white, Settings(provider="given")).strokes) > 5

@@ -808,6 +808,13 @@ TEXTS = {
     "The sheet was straightened: its corners were {0}° askew.": (
         "La feuille a été redressée : ses coins étaient de travers de {0}°."
     ),
+    (
+        "The picture has white areas and is not of centerlines, thin white lines on black; "
+        "choose another --provider."
+    ): (
+        "L'image a des aplats blancs : ce ne sont pas des lignes médianes, fines et blanches sur "
+        "noir ; choisissez un autre --provider."
+    ),
     "Printed rules were left out.": "Les lignes imprimées ont été omises.",
     "Left out as no part of the drawing: {0}.": "Omis, car ne fait pas partie du dessin : {0}.",
     "dark borders of the scan": "bords sombres du scan",

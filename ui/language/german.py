@@ -846,6 +846,13 @@ TEXTS = {
     "The sheet was straightened: its corners were {0}° askew.": (
         "Das Blatt wurde entzerrt: seine Ecken waren um {0}° schief."
     ),
+    (
+        "The picture has white areas and is not of centerlines, thin white lines on black; "
+        "choose another --provider."
+    ): (
+        "Das Bild hat weiße Flächen und ist keines von Mittellinien, dünnen weißen Linien auf "
+        "Schwarz; wähle einen anderen --provider."
+    ),
     "Printed rules were left out.": "Gedruckte Hilfslinien wurden weggelassen.",
     "Left out as no part of the drawing: {0}.": "Als nicht zur Zeichnung gehörig weggelassen: {0}.",
     "dark borders of the scan": "dunkle Ränder des Scans",

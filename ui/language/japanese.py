@@ -772,6 +772,13 @@ TEXTS = {
     "The sheet was straightened: its corners were {0}° askew.": (
         "用紙の歪みを補正しました。角のずれは {0}° でした。"
     ),
+    (
+        "The picture has white areas and is not of centerlines, thin white lines on black; "
+        "choose another --provider."
+    ): (
+        "画像に白い面があり、黒地に細い白線の中心線画像ではありません。"
+        "別の --provider を選んでください。"
+    ),
     "Printed rules were left out.": "印刷された罫線を除きました。",
     "Left out as no part of the drawing: {0}.": ("描画の一部ではないため除きました: {0}。"),
     "dark borders of the scan": "スキャンの暗い縁",
