@@ -196,9 +196,10 @@ def _claimed(data: Array, name: str) -> int:
         if len(data) < 26 or data[12:16].tobytes() != b"IHDR":
             return 0
         width, height, bits, colors = struct.unpack(">IIBB", data[16:26].tobytes())
+        chunk = _longest_chunk(data)  # OpenCV makes room for that, too
         if width * height > _REFUSED:
-            return 0
-        return height * (width * bits * _PNG_CHANNELS.get(colors, 1) // 8 + 1)
+            return chunk
+        return max(chunk, height * (width * bits * _PNG_CHANNELS.get(colors, 1) // 8 + 1))
     if name == "GIF":
         width, height = struct.unpack("<HH", data[6:10].tobytes().ljust(4, b"\0"))
         return width * height
@@ -209,6 +210,16 @@ def _claimed(data: Array, name: str) -> int:
             return width * height
         at += 2 + int.from_bytes(data[at + 2 : at + 4].tobytes(), "big")
     return 0
+
+
+def _longest_chunk(data: Array) -> int:
+    """Bytes that the longest of a PNG's chunks says it has, as far as they follow each other."""
+    at, longest = 8, 0
+    while at + 8 <= len(data):
+        size = int.from_bytes(data[at : at + 4].tobytes(), "big")
+        longest = max(longest, size)
+        at += 12 + size
+    return longest
 
 
 def _bmp_with_alpha(data: bytes) -> Array | None:

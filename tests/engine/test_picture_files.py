@@ -265,6 +265,14 @@ def lying_png() -> bytes:
     return bytes(data)
 
 
+def long_png() -> bytes:
+    """Says that its pixels take up 4 GB of the file, for which OpenCV made room."""
+    data = bytearray(encoded(".png", GRAY))
+    data[16:24] = struct.pack(">II", 40_000, 40_000)
+    data[33:37] = b"\xff" * 4
+    return bytes(data)
+
+
 @pytest.mark.parametrize(
     "data",
     [
@@ -277,6 +285,7 @@ def lying_png() -> bytes:
         tiff(DEEP, t322=0, t323=0, t324=8),
         lying_jpeg(),
         lying_png(),
+        long_png(),
         b"GIF89a" + struct.pack("<HH", 20_000, 20_000) + encoded(".gif", COLOR)[10:],
         tga(GRAY, 11, 0, b"\x81\0")[:12] + struct.pack("<HH", 65535, 65535) + b"\x08\0\x81\0",
     ],
