@@ -107,15 +107,20 @@ def _step(node: Node) -> int:
     return step if a["kernel_shape"][0] - 2 * a["pads"][0] == step else 1
 
 
+def _places(size: int, before: int, step: int) -> tuple[list[tuple[int, int]], int]:
+    """Of each tap of a kernel the rows away and the phase of the row that it stands over, and how
+    many rows away that is at most."""
+    places = [divmod(tap - before, step) for tap in range(size)]
+    return places, max(abs(away) for away, _ in places)
+
+
 def _of_phases(network: Network, node: Node, step: int) -> Network:
     """The network with a strided convolution as one of phases."""
     before = node.attributes["pads"][0]
     kernel = network.weights[node.inputs[1]]
     out, channels, size, _ = kernel.shape
-    # Tap t of the kernel reads row step * i + t - before: of phase (t - before) % step, reach rows
-    # away.
-    places = [divmod(tap - before, step) for tap in range(size)]
-    reach = max(abs(away) for away, _ in places)
+    # Tap t of the kernel reads row step * i + t - before.
+    places, reach = _places(size, before, step)
     taps = np.zeros((out, step, step, channels, 2 * reach + 1, 2 * reach + 1), np.float32)
     for y, (down, row) in enumerate(places):
         for x, (right, column) in enumerate(places):
@@ -130,8 +135,7 @@ def _to_phases(network: Network, node: Node, step: int) -> Network:
     kernel = network.weights[node.inputs[1]]
     channels, out, size, _ = kernel.shape
     # Row i writes tap t to row step * i + t - before.
-    places = [divmod(tap - before, step) for tap in range(size)]
-    reach = max(abs(away) for away, _ in places)
+    places, reach = _places(size, before, step)
     taps = np.zeros((step, step, out, channels, 2 * reach + 1, 2 * reach + 1), np.float32)
     for y, (down, row) in enumerate(places):
         for x, (right, column) in enumerate(places):
