@@ -65,7 +65,7 @@ class INVOLUTE_OT_try_part(JobOperator, bpy.types.Operator):
             part = Part(page, parts.box_around(np.array(corners, float), page))
         elif (part := parts.current()) is None:
             raise InvoluteError(parts.BESIDE)
-        # Both are found on a whole page, and move it.
+        # A sheet is found on a whole page; straightened, the part would lie elsewhere.
         settings = replace(engine_settings(scene_settings(context.scene)), straighten=False)
         source = part.crop or part.page.source()
         parts.show(part)
