@@ -11,8 +11,8 @@ from pathlib import Path
 import cv2
 import numpy as np
 
-from ...synthesis.line_art import Array, Library
-from .training_page import page
+from ...synthesis.line_art import Array
+from .page_batches import STREAMS
 
 
 def main(arguments: list[str] | None = None) -> None:
@@ -20,13 +20,15 @@ def main(arguments: list[str] | None = None) -> None:
     parser = argparse.ArgumentParser(prog="sheet", description=__doc__.splitlines()[0])
     parser.add_argument("--data", type=Path, required=True)
     parser.add_argument("--out", type=Path, required=True)
+    parser.add_argument("--pages", default="clean", choices=list(STREAMS))
     parser.add_argument("--count", type=int, default=100)
     parser.add_argument("--size", type=int, default=256)
     parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args(arguments)
-    library = Library.load(options.data)
+    stream = STREAMS[options.pages]
+    library = stream.load(options.data)
     pages = [
-        page(np.random.default_rng((options.seed, k)), library, options.size)
+        stream.draw(np.random.default_rng((options.seed, k)), library, options.size, False)
         for k in range(options.count)
     ]
     columns = int(np.ceil(np.sqrt(options.count)))

@@ -19,7 +19,7 @@ from torch import Tensor
 from .. import lineage
 from ..loop import Schedule, Training
 from .losses import CENTERLINE_LOSSES, total_loss
-from .page_batches import Pages, degrade, loader, split, validation_pages
+from .page_batches import STREAMS, Pages, degrade, loader, split, validation_pages
 from .page_figures import page_figures, pooled
 from .restore_unet import restored
 from .unet import WIDTHS, CenterlineNet
@@ -31,6 +31,7 @@ def main(arguments: list[str] | None = None) -> None:
     add = parser.add_argument
     add("--data", type=Path, required=True, help="folder with the true drawings (.npz)")
     add("--run", type=Path, required=True, help="folder of this run; resumed when it exists")
+    add("--pages", default="clean", choices=list(STREAMS), help="what is drawn on them")
     add("--minutes", type=float, default=120.0, help="length of the whole schedule")
     add("--steps", type=int, default=10**9, help="or its number of steps, whichever ends first")
     add("--stop-after", type=float, default=math.inf, help="leave after so many minutes, to resume")
@@ -65,9 +66,11 @@ def train(options: argparse.Namespace) -> None:
         options.steps, options.minutes, options.stop_after, options.rate, every=options.every
     )
     training = Training(options.run, net, schedule)
-    check = validation_pages(options.data, 24)
+    check = validation_pages(options.data, 24, options.pages)
     seed = options.seed + 7919 * training.step
-    pages = Pages(options.data, options.batch, options.crop, options.fresh, seed)
+    pages = Pages(
+        options.data, options.batch, options.crop, options.fresh, seed, stream=options.pages
+    )
     noise = torch.Generator(device).manual_seed(options.seed + training.step)
 
     def loss(net: CenterlineNet, batch: Tensor) -> dict[str, Tensor]:

@@ -47,13 +47,15 @@ _WEAK = ("charcoal", "soft pencil", "charcoal", "pencil")  # media that need mor
 @dataclass(frozen=True, eq=False)
 class Layer:
     """What one pen drew. ink: (size, size); half: (N,) px for each sample; means: the lines that
-    the strokes stand for, when they are not these themselves (none: nothing)."""
+    the strokes stand for, when they are not these themselves (none: nothing); strays: px that the
+    ink may lie off the samples."""
 
     samples: Samples
     half: Array
     ink: Array
     means: Samples | None = None
     is_rough: bool = False
+    strays: float = 0.0
 
 
 def page(
@@ -72,12 +74,20 @@ def page(
     if kind is None:
         kind = "paper" if only else str(rng.choice(list(KINDS), p=list(KINDS.values())))
     layers = _LAYERS[kind](rng, library, size, held_out, only)
+    return looked_at(rng, layers, library, size, held_out, kind == "digital")
+
+
+def looked_at(
+    rng: Rng, layers: list[Layer], library: Library, size: int, held_out: bool, digital: bool
+) -> Array:
+    """The page of some layers as (9, size, size) uint8: on a sheet, scanned and cleaned, or as a
+    drawing program hands it on."""
     solid = _solids(rng, size) if rng.random() < 0.15 else np.zeros((size, size), np.float32)
     ink = _together([layer.ink for layer in layers], size)
-    ink = 1 - (1 - ink) * (1 - solid * (1.0 if kind == "digital" else rng.uniform(0.85, 1.0)))
+    ink = 1 - (1 - ink) * (1 - solid * (1.0 if digital else rng.uniform(0.85, 1.0)))
     if rng.random() < 0.1:
-        ink = np.maximum(ink, screentone(rng, size, kind == "digital"))
-    if kind == "digital":
+        ink = np.maximum(ink, screentone(rng, size, digital))
+    if digital:
         cleaned = _digital(rng, ink)
     else:
         gray = _photograph(rng, ink, library, size, held_out)
@@ -305,7 +315,7 @@ def _targets(layers: list[Layer], ink: Array) -> tuple[Targets, Array]:
 def _seen(layer: Layer, layers: list[Layer], ink: Array) -> Array:
     """Which samples of a layer can be seen, (N,); of strokes that are gone, none: rules taken out
     of the page would still show where they cross the drawing."""
-    seen = _visible(layer.samples.position, ink) & ~_hidden(layer, layers)
+    seen = _visible(layer.samples.position, ink, layer.strays) & ~_hidden(layer, layers)
     position, stroke = layer.samples.position, layer.samples.stroke
     on_page = ((position >= 0) & (position < len(ink))).all(1)
     shown = np.bincount(stroke, seen & on_page)
@@ -313,12 +323,13 @@ def _seen(layer: Layer, layers: list[Layer], ink: Array) -> Array:
     return seen & ~gone[stroke]
 
 
-def _visible(points: Array, ink: Array) -> Array:
-    """Which of (N, 2) samples along strokes show: most of the 24 px along them is inked.
+def _visible(points: Array, ink: Array, strays: float) -> Array:
+    """Which of (N, 2) samples along strokes show: most of the 24 px along them is inked, or lies so
+    many px off what is.
 
     Nobody can trace what the paper's grain has swallowed. Points off the page count as well.
     """
-    inked = cv2.dilate(ink, np.ones((3, 3), np.uint8)) > 0.035
+    inked = cv2.dilate(ink, np.ones((3 + 2 * round(strays),) * 2, np.uint8)) > 0.035
     near = _over(_at(inked, points), _SEEN_OVER)
     # On grainy paper a stroke must do better than the grain.
     return near > max(0.42, min(0.9, 0.3 + inked.mean()))
