@@ -20,24 +20,22 @@ from ...synthesis.line_art import Array, Library
 from .rough_page import RoughLibrary, rough_page
 from .training_page import page
 
-PAGE = 384
-FIRST = 12  # pages that a worker draws before its first batch
+PAGE = 384  # px, side of a page
+_FIRST = 24  # pages that a worker draws before its first batch: 5 s
 AT_EDGE = 0.15  # share of the crops that show the edge of a page
 
 
 @dataclass(frozen=True)
 class Stream:
-    """A kind of pages. load(folder): the drawings; draw(rng, drawings, size, held_out): a page;
-    side: of a page, px."""
+    """A kind of pages. load(folder): the drawings; draw(rng, drawings, size, held_out): a page."""
 
     load: Callable[[Path], Any]
     draw: Callable[[np.random.Generator, Any, int, bool], Array]
-    side: int = PAGE
 
 
 STREAMS = {
     "clean": Stream(Library.load, page),
-    "rough": Stream(RoughLibrary.load, rough_page, 512),
+    "rough": Stream(RoughLibrary.load, rough_page),
 }
 
 
@@ -51,23 +49,24 @@ class Pages(IterableDataset):
         crop: int,
         fresh: float,
         seed: int,
+        side: int = PAGE,
         keep: int = 700,
         stream: str = "clean",
     ) -> None:
         self.stream = STREAMS[stream]
         self.data, self.batch, self.crop = data, batch, crop
-        self.fresh, self.seed, self.keep = fresh, seed, keep
+        self.fresh, self.seed, self.side, self.keep = fresh, seed, side, keep
 
     def __iter__(self) -> Iterator[Tensor]:
         worker = get_worker_info()
         rng = np.random.default_rng((self.seed, worker.id if worker else 0))
         torch.set_num_threads(1)
-        library, side = self.stream.load(self.data), self.stream.side
+        library = self.stream.load(self.data)
 
         def drawn() -> Array:
-            return self.stream.draw(rng, library, side, False)
+            return self.stream.draw(rng, library, self.side, False)
 
-        held = [drawn() for _ in range(min(FIRST, 2 * self.batch))]
+        held = [drawn() for _ in range(_FIRST)]
         due, slot = 0.0, 0
         while True:
             due += self.fresh
@@ -84,7 +83,7 @@ class Pages(IterableDataset):
     def _crop(self, rng: np.random.Generator, whole: Array) -> Array:
         """A turned or flipped crop, now and then at the page's edge; of two tries the one that
         shows more line."""
-        tries, rest = [], self.stream.side - self.crop
+        tries, rest = [], self.side - self.crop
         for _ in range(2):
             y, x = rng.integers(0, rest + 1, 2)
             if rng.random() < AT_EDGE:
@@ -95,19 +94,23 @@ class Pages(IterableDataset):
         return best[:, :, ::-1] if rng.random() < 0.5 else best
 
 
-def loader(pages: Pages, workers: int) -> DataLoader:
-    """Batches made by `workers` processes (0 = in this one)."""
+def loader(pages: Pages, workers: int, pinned: bool = False) -> DataLoader:
+    """Batches made by `workers` processes (0 = in this one); pinned: in memory that a GPU copies
+    from while it computes."""
+    ahead = 4 if workers else None
     return DataLoader(
-        pages, batch_size=None, num_workers=workers, prefetch_factor=4 if workers else None
+        pages, batch_size=None, num_workers=workers, prefetch_factor=ahead, pin_memory=pinned
     )
 
 
-def validation_pages(data: Path, count: int, stream: str = "clean", seed: int = 77) -> Array:
-    """(count, C, side, side) uint8 pages from the held-out drawings, always the same ones."""
+def validation_pages(
+    data: Path, count: int, size: int = PAGE, seed: int = 77, stream: str = "clean"
+) -> Array:
+    """(count, C, size, size) uint8 pages from the held-out drawings, always the same ones."""
     kind = STREAMS[stream]
     library = kind.load(data)
     rngs = (np.random.default_rng((seed, k)) for k in range(count))
-    return np.stack([kind.draw(rng, library, kind.side, True) for rng in rngs])
+    return np.stack([kind.draw(rng, library, size, True) for rng in rngs])
 
 
 def split(batch: Tensor) -> tuple[Tensor, Tensor]:
