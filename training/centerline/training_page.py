@@ -323,7 +323,7 @@ def _seen(layer: Layer, layers: list[Layer], ink: Array) -> Array:
     return seen & ~gone[stroke]
 
 
-def _visible(points: Array, ink: Array, strays: float) -> Array:
+def _visible(points: Array, ink: Array, strays: float = 0.0) -> Array:
     """Which of (N, 2) samples along strokes show: most of the 24 px along them is inked, or lies so
     many px off what is.
 
