@@ -14,11 +14,11 @@ from torch import Tensor, nn
 WIDTHS = (24, 48, 96, 128)
 STRIDE = 2 ** len(WIDTHS)  # both sides of an input are multiples of this
 HEADS = ("centerline", "junctions", "endpoints", "half_width", "solid")
-HEADS += ("doubled", "apart", "clean")
+HEADS += ("doubled", "apart", "clean", "lifted")
 
 
 class CenterlineNet(nn.Module):
-    """(N, 1, H, W) ink in [0, 1] -> (N, 8, H, W) raw values, channels as in HEADS.
+    """(N, 1, H, W) ink in [0, 1] -> (N, 9, H, W) raw values, channels as in HEADS.
 
     On the way down, levels have two 3x3 convolutions, the finest has one; on the way up all have
     one. The finest level adds what comes from below, the others append it: half the work at
