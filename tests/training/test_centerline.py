@@ -187,19 +187,18 @@ def test_a_run_stops_resumes_and_is_recorded(drawings, tmp_path):
     assert str(tmp_path) not in json.dumps(config)  # it is shipped with the weights
 
 
-def used(widths: tuple[int, ...]) -> CenterlineNet:
-    """A small network whose norms have seen something."""
-    torch.manual_seed(5)
-    net = CenterlineNet(widths).eval()
+def _seasoned(net: CenterlineNet) -> CenterlineNet:
+    """With norms as a training leaves them, each with its own figures."""
     for layer in net.modules():
         if isinstance(layer, torch.nn.BatchNorm2d):
             layer.running_mean.uniform_(-1, 1)
             layer.running_var.uniform_(0.5, 2)
-    return net
+    return net.eval()
 
 
 def test_a_run_goes_on_from_shipped_weights(drawings, tmp_path):
-    net = used((4, 8))
+    torch.manual_seed(5)
+    net = _seasoned(CenterlineNet((4, 8)))
     export(net, tmp_path / "shipped.onnx")
     again = restored(tmp_path / "shipped.onnx")
     ink = torch.rand(1, 1, 64, 48)
@@ -279,6 +278,20 @@ def test_older_weights_have_five_maps_and_say_that_they_have_no_features():
             trace_both(ink, both, lambda fraction: None)
 
 
+@pytest.mark.parametrize("counts", [None, (0, 2, 1), (2, 1, 3)])
+def test_a_network_of_any_depth_is_read_back(tmp_path, counts):
+    torch.manual_seed(2)
+    net = _seasoned(CenterlineNet((4, 8, 12), counts))
+    export(net, tmp_path / "net.onnx")
+    keep(net, tmp_path / "net.pt")
+    ink = torch.rand(1, 1, 3 * STRIDE, 2 * STRIDE)
+    for name in ("net.onnx", "net.pt"):
+        again = restored(tmp_path / name)
+        assert [len(level) for level in again.encode] == list(counts or (1, 2, 2))
+        with torch.inference_mode():
+            torch.testing.assert_close(again(ink), net(ink), atol=2e-2, rtol=0)
+
+
 def test_weights_to_go_on_from_are_kept_with_their_norms(tmp_path):
     torch.manual_seed(1)
     net = CenterlineNet((4, 8)).eval()
@@ -295,7 +308,8 @@ def test_weights_to_go_on_from_are_kept_with_their_norms(tmp_path):
 
 
 def test_training_goes_on_from_weights_with_fewer_heads(drawings, tmp_path):
-    old = used((4, 8))
+    torch.manual_seed(5)
+    old = _seasoned(CenterlineNet((4, 8)))
     old.head = torch.nn.ConvTranspose2d(4, 5, 4, 2, 1)
     ink, known = torch.rand(1, 1, 32, 48), old.head.out_channels
     export(old, tmp_path / "old.onnx")

@@ -17,7 +17,8 @@ from torch.utils.data import DataLoader, IterableDataset, get_worker_info
 from ...synthesis.line_art import Array, Library
 from .training_page import page
 
-PAGE = 384
+PAGE = 384  # px, side of a page
+_FIRST = 24  # pages that a worker draws before its first batch: 5 s
 AT_EDGE = 0.15  # share of the crops that show the edge of a page
 
 
@@ -25,26 +26,33 @@ class Pages(IterableDataset):
     """An endless stream of (batch, C, crop, crop) uint8 tensors, channels as sample.CHANNELS."""
 
     def __init__(
-        self, data: Path, batch: int, crop: int, fresh: float, seed: int, keep: int = 700
+        self,
+        data: Path,
+        batch: int,
+        crop: int,
+        fresh: float,
+        seed: int,
+        side: int = PAGE,
+        keep: int = 700,
     ) -> None:
         self.data, self.batch, self.crop = data, batch, crop
-        self.fresh, self.seed, self.keep = fresh, seed, keep
+        self.fresh, self.seed, self.side, self.keep = fresh, seed, side, keep
 
     def __iter__(self) -> Iterator[Tensor]:
         worker = get_worker_info()
         rng = np.random.default_rng((self.seed, worker.id if worker else 0))
         torch.set_num_threads(1)
         library = Library.load(self.data)
-        held: list[Array] = [page(rng, library, PAGE) for _ in range(2 * self.batch)]
+        held: list[Array] = [page(rng, library, self.side) for _ in range(_FIRST)]
         due, slot = 0.0, 0
         while True:
             due += self.fresh
             while due >= 1:
                 due -= 1
                 if len(held) < self.keep:
-                    held.append(page(rng, library, PAGE))
+                    held.append(page(rng, library, self.side))
                 else:
-                    held[slot % self.keep] = page(rng, library, PAGE)
+                    held[slot % self.keep] = page(rng, library, self.side)
                     slot += 1
             crops = [self._crop(rng, held[rng.integers(len(held))]) for _ in range(self.batch)]
             yield torch.from_numpy(np.stack(crops))
@@ -52,7 +60,7 @@ class Pages(IterableDataset):
     def _crop(self, rng: np.random.Generator, whole: Array) -> Array:
         """A turned or flipped crop, now and then at the page's edge; of two tries the one that
         shows more line."""
-        tries, rest = [], PAGE - self.crop
+        tries, rest = [], self.side - self.crop
         for _ in range(2):
             y, x = rng.integers(0, rest + 1, 2)
             if rng.random() < AT_EDGE:
@@ -63,10 +71,12 @@ class Pages(IterableDataset):
         return best[:, :, ::-1] if rng.random() < 0.5 else best
 
 
-def loader(pages: Pages, workers: int) -> DataLoader:
-    """Batches made by `workers` processes (0 = in this one)."""
+def loader(pages: Pages, workers: int, pinned: bool = False) -> DataLoader:
+    """Batches made by `workers` processes (0 = in this one); pinned: in memory that a GPU copies
+    from while it computes."""
+    ahead = 4 if workers else None
     return DataLoader(
-        pages, batch_size=None, num_workers=workers, prefetch_factor=4 if workers else None
+        pages, batch_size=None, num_workers=workers, prefetch_factor=ahead, pin_memory=pinned
     )
 
 

@@ -20,9 +20,14 @@ def restored(path: Path) -> CenterlineNet:
     """The network of a checkpoint (the running mean of its weights) or of an ONNX file of `export`,
     ready for inference; older ones have fewer heads."""
     state = _shipped(path) if path.suffix == ".onnx" else torch.load(path, "cpu")["mean"]
-    levels = sum(name.startswith("encode.") and name.endswith(".0.0.weight") for name in state)
-    widths = tuple(len(state[f"encode.{k}.0.0.weight"]) for k in range(levels))
-    net = CenterlineNet(widths, norms="stem.0.bias" not in state).eval()
+    deeper = sum(name.startswith("down.") and name.endswith(".0.weight") for name in state)
+    widths = [len(state["stem.0.weight"])]
+    widths += [len(state[f"down.{k}.0.weight"]) for k in range(deeper)]
+    counts = [
+        sum(f"encode.{level}.{k}.0.weight" in state for k in range(len(state)))
+        for level in range(deeper + 1)
+    ]
+    net = CenterlineNet(tuple(widths), tuple(counts), norms="stem.0.bias" not in state).eval()
     inputs, heads, *_ = state["head.weight"].shape
     if heads < len(HEADS):
         net.head = nn.ConvTranspose2d(inputs, heads, 4, 2, 1)
