@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from multiprocessing import Process
 from pathlib import Path
 
 import numpy as np
@@ -17,7 +18,12 @@ from involute.engine.centerline.tiles import shift_of  # noqa: E402
 from involute.engine.errors import InvoluteError  # noqa: E402
 from involute.synthesis import line_art, media, wear  # noqa: E402
 from involute.synthesis.line_art import Library  # noqa: E402
-from involute.training.centerline import losses, page_figures, training_page  # noqa: E402
+from involute.training.centerline import (  # noqa: E402
+    losses,
+    page_figures,
+    shared_pages,
+    training_page,
+)
 from involute.training.centerline.average import main as average  # noqa: E402
 from involute.training.centerline.export_centerline import (  # noqa: E402
     export,
@@ -194,6 +200,22 @@ def _seasoned(net: CenterlineNet) -> CenterlineNet:
             layer.running_mean.uniform_(-1, 1)
             layer.running_var.uniform_(0.5, 2)
     return net.eval()
+
+
+def test_several_runs_learn_from_pages_that_others_draw(drawings, tmp_path, monkeypatch):
+    bank = tmp_path / "pages"
+    monkeypatch.setattr(shared_pages, "_FEWEST", 3)
+    options = ["--data", str(drawings), "--out", str(bank), "--side", "96", "--keep", "4"]
+    drawing = Process(target=shared_pages.main, args=(options,))
+    drawing.start()
+    try:
+        batch = next(iter(shared_pages.SharedPages(bank, 5, 64, 96, 1)))
+    finally:
+        drawing.terminate()
+        drawing.join()
+    assert batch.shape == (5, len(CHANNELS), 64, 64)
+    assert batch.dtype == torch.uint8
+    assert batch[:, 1].any()
 
 
 def test_a_run_goes_on_from_shipped_weights(drawings, tmp_path):

@@ -22,6 +22,7 @@ from .losses import CENTERLINE_LOSSES, total_loss
 from .page_batches import PAGE, Pages, degrade, loader, split, validation_pages
 from .page_figures import page_figures, pooled
 from .restore_unet import restored, with_all_heads
+from .shared_pages import SharedPages
 from .unet import WIDTHS, CenterlineNet
 
 
@@ -42,6 +43,7 @@ def main(arguments: list[str] | None = None) -> None:
     add("--fresh", type=float, default=1.0, help="new pages per batch and worker")
     add("--workers", type=int, default=1)
     add("--threads", type=int, default=1, help="of torch, on the CPU")
+    add("--shared", type=Path, help="folder of pages that `shared_pages` draws meanwhile")
     add("--rate", type=float, default=2e-3, help="highest learning rate")
     add("--loss", default="bce_dice", choices=list(CENTERLINE_LOSSES))
     add("--widths", type=int, nargs="+", default=list(WIDTHS))
@@ -70,7 +72,11 @@ def train(options: argparse.Namespace) -> None:
     training = Training(options.run, net, schedule)
     check = validation_pages(options.data, 24)
     seed = options.seed + 7919 * training.step
-    pages = Pages(options.data, options.batch, options.crop, options.fresh, seed, options.side)
+    crops = options.batch, options.crop
+    if options.shared:
+        pages: Pages = SharedPages(options.shared, *crops, options.side, seed)
+    else:
+        pages = Pages(options.data, *crops, options.fresh, seed, options.side)
     noise = torch.Generator(device).manual_seed(options.seed + training.step)
 
     def losses(ink: Tensor, truth: Tensor) -> dict[str, Tensor]:
