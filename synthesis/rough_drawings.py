@@ -116,7 +116,8 @@ def rough_drawing(rng: Rng, library: Library, kind: str, size: int) -> RoughDraw
     sure = kind == "keyframe"
     if kind == "hatched":
         return _patches(rng, int(rng.integers(2, 9)), pen, size)
-    lines, spacing = [], 0.0
+    lines: Strokes = []
+    spacing = 0.0
     while not lines or spacing < max(_DENSEST[kind], _APART * pen):
         lines = _windowed(rng, meant_lines(rng, library, kind, (0.4, 1.1)), size)
         spacing = line_spacing(sample(lines, size), size) if lines else 0.0

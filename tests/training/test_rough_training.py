@@ -16,6 +16,7 @@ from involute.synthesis import pencilling, rough_drawings
 from involute.synthesis.composed_pages import Library
 from involute.synthesis.pencilling import Hand
 from involute.training.centerline.page_batches import STREAMS
+from involute.training.centerline.training_page import CHANNELS
 from involute.training.rough import rough_pages, train_rough
 
 BOX = np.array([[200.0, 200.0], [700.0, 200.0], [700.0, 700.0], [200.0, 700.0], [200.0, 200.0]])
@@ -81,7 +82,7 @@ def test_a_rough_page_shows_strokes_and_means_lines(tmp_path) -> None:
         for seed in range(6)
     ]
     for page in pages:
-        assert page.shape == (9, 256, 256)
+        assert page.shape == (len(CHANNELS), 256, 256)
         np.testing.assert_array_equal(page[1], page[8])  # what is meant is all there is
     inked, meant = (np.array([(page[c] > 100).sum() for page in pages]) for c in (0, 1))
     assert (inked > meant).any()

@@ -48,7 +48,7 @@ class RoughLibrary:
 def rough_page(
     rng: Rng, library: RoughLibrary, size: int, held_out: bool = False, kind: str | None = None
 ) -> Array:
-    """A page as (9, size, size) uint8, channels as in `training_page.CHANNELS`; kind: of KINDS.
+    """A page as (10, size, size) uint8, channels as in `training_page.CHANNELS`; kind: of KINDS.
 
     The same generator state gives the same page.
     """

@@ -21,7 +21,7 @@ from ..loop import Schedule, Training
 from .losses import CENTERLINE_LOSSES, total_loss
 from .page_batches import PAGE, STREAMS, Pages, degrade, loader, split, validation_pages
 from .page_figures import page_figures, pooled
-from .restore_unet import restored
+from .restore_unet import restored, with_all_heads
 from .shared_pages import SharedPages
 from .unet import WIDTHS, CenterlineNet
 
@@ -61,7 +61,7 @@ def train(options: argparse.Namespace) -> None:
     torch.manual_seed(options.seed)
     device = torch.device(options.device)
     if options.start_from:
-        net = restored(options.start_from).train()
+        net = with_all_heads(restored(options.start_from)).train()
     else:
         net = CenterlineNet(tuple(options.widths), options.counts and tuple(options.counts))
     net = net.to(device, memory_format=torch.channels_last)

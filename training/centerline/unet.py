@@ -14,11 +14,11 @@ from torch import Tensor, nn
 WIDTHS = (24, 48, 96, 128)
 STRIDE = 2 ** len(WIDTHS)  # both sides of an input are multiples of this
 HEADS = ("centerline", "junctions", "endpoints", "half_width", "solid")
-HEADS += ("doubled", "apart", "clean")
+HEADS += ("doubled", "apart", "clean", "lifted")
 
 
 class CenterlineNet(nn.Module):
-    """(N, 1, H, W) ink in [0, 1] -> (N, 8, H, W) raw values, channels as in HEADS.
+    """(N, 1, H, W) ink in [0, 1] -> (N, 9, H, W) raw values, channels as in HEADS.
 
     widths: channels of the levels, from the finest to the coarsest. counts: 3x3 convolutions of
     each on the way down, without a choice one at the finest and two at the others; on the way up
