@@ -82,7 +82,7 @@ def total_loss(raw: Tensor, truth: Tensor, centerline: str = "bce_dice") -> dict
         "doubled": 0.3 * doubled_loss(seen[5], two, ridge),
         "apart": 0.3 * relative_error(seen[6], apart, ridge * (two > 0.7)),
         "clean": 0.6 * CENTERLINE_LOSSES[centerline](seen[7], clean),
-        "lifted": 0.3 * lifted_loss(seen[8], lifted, clean * (clean > 0.2)),
+        "lifted": 0.6 * lifted_loss(seen[8], lifted, clean * (clean > 0.2)),
     }
     parts["total"] = torch.stack(list(parts.values())).sum()
     return parts
