@@ -50,7 +50,7 @@ def thin(mask: Array) -> Array:
         peeled = 0
         for table in _PEELS:
             gone = cv2.bitwise_and(cv2.LUT(cv2.filter2D(left, cv2.CV_8U, _AROUND), table), left)
-            left -= gone
+            cv2.subtract(left, gone, dst=left)
             peeled += cv2.countNonZero(gone)
     return np.ascontiguousarray(left[1:-1, 1:-1]) * np.uint8(255)
 
