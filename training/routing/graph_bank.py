@@ -14,7 +14,7 @@ from involute.synthesis.true_graph import graph_from_strokes
 from torch.utils.data import DataLoader, IterableDataset, get_worker_info
 
 from .augment import Page, augmented, random_fixed
-from .traced import load
+from .page_file import load
 
 Array = np.ndarray
 

@@ -21,7 +21,7 @@ from .graph_bank import Batch, Batches, encoded, joined, true_page
 from .judge import Verdict, judge
 from .restore_transformer import restored
 from .set_transformer import RoutingNet
-from .traced import load
+from .page_file import load
 from .widen import widened
 
 
