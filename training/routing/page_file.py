@@ -54,7 +54,9 @@ def load(path: Path) -> list[Page]:
     point = offsets_of(data["counts"].astype(np.int64))
     inked = offsets_of(np.where(data["measured"], np.diff(point[branch]), 0))
     pages = []
-    for k, (v, b, i) in enumerate(zip(pairwise(vertex), pairwise(branch), pairwise(inked), strict=True)):
+    for k, (v, b, i) in enumerate(
+        zip(pairwise(vertex), pairwise(branch), pairwise(inked), strict=True)
+    ):
         own = slice(point[b[0]], point[b[1]])
         offsets = (point[b[0] : b[1] + 1] - point[b[0]]).astype(np.int32)
         seen = {"widths": widths[slice(*i)], "strength": strength[slice(*i)]}

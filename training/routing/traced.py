@@ -180,9 +180,7 @@ def look_scan(
     return _seen(read_scan(gray[:height, :width].clip(0, 1), settings), settings)
 
 
-def _inked(
-    rng: np.random.Generator, stamps: Samples, media: dict[str, Medium], side: int
-) -> Array:
+def _inked(rng: np.random.Generator, stamps: Samples, media: dict[str, Medium], side: int) -> Array:
     """(side, side) ink of strokes that are drawn with any pen of some media."""
     medium = media[str(rng.choice(list(media)))]
     pen = float(np.exp(rng.uniform(*np.log(medium.width))))
