@@ -301,9 +301,7 @@ def test_what_the_engine_runs_is_what_was_trained(drawings: Path, tmp_path: Path
     arguments = Namespace(
         data=drawings, out=tmp_path, steps=3, junctions=40, rate=1e-3, loss="exact", width=64,
         every=2, pages=3, minutes=10.0, seed=1, device="cpu", traced=[], traced_held_out=None,
-        traced_share=0.0, start=None, dropout=0.1, workers=0,
-        together=1,
-        kept=0,
+        traced_share=0.0, start=None, dropout=0.1, workers=0, together=1, kept=0,
     )  # fmt: skip
     train(arguments)
     arguments.steps = 4
