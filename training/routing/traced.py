@@ -15,7 +15,7 @@ from pathlib import Path
 
 import cv2
 import numpy as np
-from involute.engine.centerline import provider_for
+from involute.engine.centerline import learned, provider_for
 from involute.engine.centerline.mending import mended
 from involute.engine.fills.solids import split_solids
 from involute.engine.graph import Evidence, build_graph, traced
@@ -89,7 +89,7 @@ def traced_page(rng: np.random.Generator, library: Library, settings: Settings) 
     strokes = hand_drawn(rng, library)
     if not strokes:
         return None
-    if settings.provider == "auto" and rng.random() < _LEAN:
+    if settings.provider == "auto" and rng.random() < _LEAN and learned.LEAN.exists():
         settings = replace(settings, provider="lean")
     look = (look_ideal, look_ink, look_scan)[int(rng.choice(3, p=_KINDS))]
     maps, scan = look(rng, strokes, settings)
