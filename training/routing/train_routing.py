@@ -25,6 +25,8 @@ from .set_transformer import RoutingNet
 from .supply import Supply, on_device
 from .widen import widened
 
+_WINDOWS = 3  # traced pages for each of the others: they are windows, with a third of the junctions
+
 
 def main(argv: Sequence[str] | None = None) -> None:
     """The command line."""
@@ -127,7 +129,7 @@ def validation(
             rough.append(encoded(augmented(rng, page), {}, 8))
     parts = {"true": drawn, "rough": rough}
     if traced:
-        parts["traced"] = [encoded(page, {}, 8) for page in load(traced)[:pages]]
+        parts["traced"] = [encoded(page, {}, 8) for page in load(traced)[: _WINDOWS * pages]]
     return {name: joined([b for b in batches if len(b.mask)]) for name, batches in parts.items()}
 
 
