@@ -104,6 +104,8 @@ class LineMaps:
     apart: how far apart these lie, in working pixels, valid where they do; or None.
     clean: the ridge of the line that several pencil strokes mean; where each line is drawn once,
         the same as centerline; or None.
+    lifted: along the last 10 px of every line that was drawn without lifting the pen, how near its
+        end is: 1 at it, 0 where the line goes on; valid on the ridge; or None.
     features: (F, H / 2, W / 2) float32, what the maps are made of, to be sampled by whoever reads
         the picture; 0 on blank paper; or None.
     """
@@ -116,6 +118,7 @@ class LineMaps:
     doubled: Array | None = None
     apart: Array | None = None
     clean: Array | None = None
+    lifted: Array | None = None
     features: Array | None = None
 
 

@@ -118,10 +118,10 @@ def loosened(rng: np.random.Generator, page: list[Array]) -> list[Array]:
         return page
     drop, reach = rng.uniform(0, 0.5 if rng.random() < 0.3 else 0.15), rng.uniform(0.3, 3.0)
     kept = [line for line in page if rng.random() >= drop]
-    return [_with_ends(line, *rng.normal(0.3, reach, 2)) for line in kept] or page
+    return [with_ends(line, *rng.normal(0.3, reach, 2)) for line in kept] or page
 
 
-def _with_ends(line: Array, head: float, tail: float) -> Array:
+def with_ends(line: Array, head: float, tail: float) -> Array:
     """Lengthen (or shorten, when negative) a polyline at both ends, px; closed ones stay."""
     way = arc(line)
     if way[-1] < 25 or np.hypot(*(line[0] - line[-1])) < 3:

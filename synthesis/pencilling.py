@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import cv2
 import numpy as np
+from scipy.ndimage import gaussian_filter1d
+from scipy.spatial import cKDTree
 
 from .line_art import Array, Rng, Strokes, resample
 
@@ -14,18 +16,26 @@ MEDIA = ("pencil", "soft pencil", "pencil", "coloured pencil", "ballpoint", "cha
 
 
 _AT_ONCE = 4  # samples of 2 px, within which a corner turns
+_STEP = 2.0  # px between the samples of a line
+_TOUCHES = 3.0  # px between the end of a line and another that it meets
+_OFF = 0.06  # of the size of a line, that straight strokes may lie off it
+_LOOSE = 0.25  # of what strokes run on beyond a meeting, what they do where a line just ends
 
 
 @dataclass(frozen=True)
 class Hand:
     """How somebody sketches. strokes: how many lie over each point of a line; spread, drift: how
-    far they stray to the side, px; length: of one stroke, px; over: beyond the ends, px."""
+    far they stray to the side, px; length: of one stroke, px; over: beyond the ends, px; short:
+    before them, px. centered: px along a line over which its strokes are as often on one side of
+    it as on the other, so that the line can be told from them; 0: over all of it at best."""
 
     strokes: float
     spread: float
     drift: float
     length: float
     over: float
+    short: float = 0.0
+    centered: float = 0.0
 
     @staticmethod
     def any(rng: Rng, pen: float, spacing: float) -> Hand:
@@ -42,79 +52,149 @@ class Hand:
 
 def pencilled(rng: Rng, lines: Strokes, hand: Hand) -> tuple[Strokes, Array]:
     """The pencil strokes of some lines and how hard each is pressed, (N,) in (0, 1]."""
-    strokes: Strokes = []
-    press: list[float] = []
-    for line in lines:
-        dense = resample(line, 2.0)
-        arc = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(dense, axis=0).T))])
-        length = min(hand.length, arc[-1])
-        count = max(1, round(hand.strokes * arc[-1] / max(length, 1.0)))
-        middle = (np.arange(count) + 0.5) / count * arc[-1] + rng.normal(0, 0.15 * length, count)
+    strokes: list[_Stroke] = []
+    for line, loose in zip(lines, _loose_ends(lines, hand), strict=True):
+        course = _Course.of(line)
+        length = min(hand.length, course.length)
+        count = max(1, round(hand.strokes * course.length / max(length, 1.0)))
+        middle = (np.arange(count) + 0.5) / count * course.length
+        middle = middle + rng.normal(0, 0.15 * length, count)
         sure = rng.integers(count) if rng.random() < 0.7 else -1
+        own: list[_Stroke] = []
         for k in range(count):
             half = 0.5 * length * rng.uniform(0.6, 1.4)
-            part = _along(rng, dense, arc, middle[k] - half, middle[k] + half, hand, k == sure)
+            span = middle[k] - half, middle[k] + half
+            part = course.stroke(rng, span, hand, loose, k == sure)
             if part is not None:
-                strokes.append(part)
-                press.append(1.0 if k == sure else rng.uniform(0.3, 0.85))
-    return strokes, np.array(press)
+                own.append(replace(part, press=1.0 if k == sure else rng.uniform(0.3, 0.85)))
+        strokes += _centered(own, hand)
+    return _laid(strokes)
 
 
 def keyed(rng: Rng, lines: Strokes, hand: Hand) -> tuple[Strokes, Array]:
     """The strokes of an animator's keyframe, and how hard each is pressed: every line is said from
     end to end, stroke after stroke, and some stretches of it again."""
-    strokes: Strokes = []
-    press: list[float] = []
-    for line in lines:
-        dense = resample(line, 2.0)
-        arc = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(dense, axis=0).T))])
+    strokes: list[_Stroke] = []
+    for line, loose in zip(lines, _loose_ends(lines, hand), strict=True):
+        course, own = _Course.of(line), []
         at = -np.inf
-        while at < arc[-1]:
+        while at < course.length:
             begin = max(at, 0.0)
             stop = begin + hand.length * rng.uniform(0.5, 1.5)
-            stop = np.inf if arc[-1] - stop < 0.4 * hand.length else stop
+            stop = np.inf if course.length - stop < 0.4 * hand.length else stop
             spans = [(at, stop)]
             for _ in range(rng.poisson(max(hand.strokes - 1, 0.0))):
-                a, b = np.sort(rng.uniform(begin, min(stop, arc[-1]), 2))
+                a, b = np.sort(rng.uniform(begin, min(stop, course.length), 2))
                 spans.append((a if rng.random() < 0.6 else at, b if rng.random() < 0.6 else stop))
-            for k, (a, b) in enumerate(spans):
-                part = _along(rng, dense, arc, a, b, hand, k == 0)
+            for k, span in enumerate(spans):
+                part = course.stroke(rng, span, hand, loose, k == 0)
                 if part is not None:
-                    strokes.append(part)
-                    press.append(1.0 if k == 0 else rng.uniform(0.6, 1.0))
+                    own.append(replace(part, press=1.0 if k == 0 else rng.uniform(0.6, 1.0)))
             at = stop - hand.over * rng.uniform(-0.15, 2.0)
-    return strokes, np.array(press)
+        strokes += _centered(own, hand)
+    return _laid(strokes)
 
 
 def angular(lines: Strokes, tolerance: float) -> Strokes:
-    """Lines as somebody draws them who thinks in straight strokes, within so many px of them."""
+    """Lines as somebody draws them who thinks in straight strokes, within so many px of them, or
+    less where a line is small."""
     curves = [line.astype(np.float32)[:, None] for line in lines]
-    straight = [cv2.approxPolyDP(curve, tolerance, False)[:, 0] for curve in curves]
+    off = [min(tolerance, _OFF * float(np.ptp(line, 0).max())) for line in lines]
+    straight = [cv2.approxPolyDP(c, t, False)[:, 0] for c, t in zip(curves, off, strict=True)]
     return [one for one in straight if len(one) > 1]
 
 
-def _along(
-    rng: Rng, line: Array, arc: Array, start: float, stop: float, hand: Hand, sure: bool
-) -> Array | None:
-    """One pencil stroke beside a piece of a line; it may run on straight beyond the line's ends."""
-    over = hand.over * rng.exponential(1.0, 2) * (rng.random(2) < 0.6)
-    start, stop = max(start, -over[0]), min(stop, arc[-1] + over[1])
-    if stop - start < 4:
-        return None
-    at = np.linspace(start, stop, max(6, int((stop - start) / 2)))
-    points = np.stack([np.interp(at, arc, line[:, c]) for c in (0, 1)], 1)
-    for end, far in ((0, np.minimum(at, 0)), (-1, np.maximum(at - arc[-1], 0))):
-        out = line[end] - line[min(4, len(line) - 1) if end == 0 else max(-5, -len(line))]
-        points += np.abs(far)[:, None] * out / max(float(np.hypot(*out)), 1e-6)
-    tangent = np.gradient(points, axis=0)
-    normal = np.stack([-tangent[:, 1], tangent[:, 0]], 1)
-    normal /= np.maximum(np.hypot(*tangent.T), 1e-6)[:, None]
-    t = np.linspace(-1, 1, len(at))
-    aside = rng.normal(0, hand.spread) + t * rng.normal(0, hand.drift)
-    aside = aside + rng.normal(0, 0.4 * hand.drift) * np.sin(
-        rng.uniform(2, 6) * t + rng.uniform(0, 7)
-    )
-    return (points + normal * (aside * (0.4 if sure else 1.0))[:, None]).astype(np.float32)
+@dataclass(frozen=True, eq=False)
+class _Course:
+    """A line to be drawn. points: (N, 2) every _STEP px; arc: (N,) px."""
+
+    points: Array
+    arc: Array
+
+    @staticmethod
+    def of(line: Array) -> _Course:
+        dense = resample(line, _STEP)
+        return _Course(
+            dense, np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(dense, axis=0).T))])
+        )
+
+    @property
+    def length(self) -> float:
+        return float(self.arc[-1])
+
+    def stroke(
+        self, rng: Rng, span: tuple[float, float], hand: Hand, loose: Array, sure: bool
+    ) -> _Stroke | None:
+        """One pencil stroke beside a piece of the line, from px to px along it; it may run on
+        straight beyond the line's ends, less where they are loose, or not reach them."""
+        over = hand.over * rng.exponential(1.0, 2) * (rng.random(2) < 0.6)
+        if hand.short:
+            over = over - hand.short * rng.exponential(1.0, 2) * (rng.random(2) < 0.4)
+        over = over * np.where(loose, _LOOSE, 1.0)
+        start, stop = max(span[0], -over[0]), min(span[1], self.length + over[1])
+        if stop - start < 4:
+            return None
+        at = np.linspace(start, stop, max(6, int((stop - start) / _STEP)))
+        t = np.linspace(-1, 1, len(at))
+        aside = rng.normal(0, hand.spread) + t * rng.normal(0, hand.drift)
+        aside = aside + rng.normal(0, 0.4 * hand.drift) * np.sin(
+            rng.uniform(2, 6) * t + rng.uniform(0, 7)
+        )
+        return _Stroke(self, at, aside * (0.4 if sure else 1.0))
+
+
+@dataclass(frozen=True, eq=False)
+class _Stroke:
+    """A pencil stroke beside a line. at, aside: (N,) px along it and to the left of it."""
+
+    course: _Course
+    at: Array
+    aside: Array
+    press: float = 1.0
+
+    def laid(self) -> Array:
+        """(N, 2) float32 px: where it lies."""
+        at, arc, line = self.at, self.course.arc, self.course.points
+        points = np.stack([np.interp(at, arc, line[:, c]) for c in (0, 1)], 1)
+        for end, far in ((0, np.minimum(at, 0)), (-1, np.maximum(at - arc[-1], 0))):
+            out = line[end] - line[min(4, len(line) - 1) if end == 0 else max(-5, -len(line))]
+            points += np.abs(far)[:, None] * out / max(float(np.hypot(*out)), 1e-6)
+        tangent = np.gradient(points, axis=0)
+        normal = np.stack([-tangent[:, 1], tangent[:, 0]], 1)
+        normal /= np.maximum(np.hypot(*tangent.T), 1e-6)[:, None]
+        return (points + normal * self.aside[:, None]).astype(np.float32)
+
+
+def _laid(strokes: list[_Stroke]) -> tuple[Strokes, Array]:
+    return [one.laid() for one in strokes], np.array([one.press for one in strokes])
+
+
+def _centered(strokes: list[_Stroke], hand: Hand) -> list[_Stroke]:
+    """The strokes of one line, moved so that the line lies amid them, the firmer ones nearest."""
+    if not hand.centered or not strokes:
+        return strokes
+    bins = np.arange(0, strokes[0].course.length + _STEP, _STEP)
+    weight, moved = np.full((2, len(bins)), 1e-6)
+    for one in strokes:
+        held = one.press * ((bins >= one.at[0] - _STEP) & (bins <= one.at[-1] + _STEP))
+        weight += held
+        moved += held * np.interp(bins, one.at, one.aside)
+    weight, moved = gaussian_filter1d([weight, moved], hand.centered / _STEP, mode="nearest")
+    middle = (moved - 1e-6) / weight
+    return [replace(s, aside=s.aside - np.interp(s.at, bins, middle)) for s in strokes]
+
+
+def _loose_ends(lines: Strokes, hand: Hand) -> Array:
+    """(L, 2) bool: the ends of lines that meet no other line, of a hand that minds them."""
+    if not hand.centered or len(lines) < 2:
+        return np.zeros((len(lines), 2), bool)
+    dense = [resample(line, _STEP) for line in lines]
+    points, line = np.concatenate(dense), np.repeat(np.arange(len(dense)), [len(d) for d in dense])
+    ends = np.concatenate([one[[0, -1]] for one in dense])
+    own = np.repeat(np.arange(len(dense)), 2)
+    away, near = cKDTree(points).query(ends, k=12, distance_upper_bound=_TOUCHES)
+    other = line[np.minimum(near, len(line) - 1)] != own[:, None]
+    return ~(np.isfinite(away) & other).any(1).reshape(-1, 2)
 
 
 def in_pieces(rng: Rng, lines: Strokes, share: float, sharp: float = 40.0) -> Strokes:

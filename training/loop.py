@@ -149,11 +149,14 @@ class Training:
         """Move the running mean; its memory grows with the number of steps."""
         keep = min(1 - 1 / self.schedule.memory, (1 + self.step) / (10 + self.step))
         pairs = zip(self.mean.state_dict().values(), self.net.state_dict().values(), strict=True)
+        moving = []
         for slow, fast in pairs:
             if slow.dtype.is_floating_point:
-                slow.lerp_(fast, 1 - keep)
+                moving.append((slow, fast))
             else:
                 slow.copy_(fast)
+        slow, fast = (list(side) for side in zip(*moving, strict=True))
+        torch._foreach_lerp_(slow, fast, 1 - keep)
 
     def _log(self, figures: dict[str, Any]) -> None:
         with (self.folder / LOG).open("a", encoding="utf-8") as log:
@@ -164,12 +167,11 @@ class _Running:
     """Means of the losses over about the last fifty steps."""
 
     def __init__(self) -> None:
-        self._parts: dict[str, float] = {}
+        self._parts: dict[str, Tensor] = {}
 
     def add(self, losses: dict[str, Tensor]) -> None:
-        for name, value in losses.items():
-            known = self._parts.setdefault(name, float(value))
-            self._parts[name] = 0.98 * known + 0.02 * float(value)
+        for name, value in losses.items():  # read later: to ask a GPU for a number is to wait
+            self._parts[name] = self._parts.get(name, value) * 0.98 + 0.02 * value
 
     def means(self) -> dict[str, float]:
-        return {f"train_{name}": round(value, 5) for name, value in self._parts.items()}
+        return {f"train_{name}": round(float(value), 5) for name, value in self._parts.items()}

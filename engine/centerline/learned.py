@@ -71,7 +71,8 @@ def trace_maps(
     """The maps of a page, (H, W) float32 ink in [0, 1], without features.
 
     `shift` and `wanted` are those of `tiles.look`. On pages of more than 24 megapixels, all but
-    centerline and half_width are None: memory. Older weights have no doubled, apart and clean.
+    centerline and half_width are None: memory. Older weights have no doubled, apart and clean,
+    or no lifted.
     """
     maps = _room(ink, _paper(infer).shape[0])
 

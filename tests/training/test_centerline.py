@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from multiprocessing import Process
 from pathlib import Path
 
 import numpy as np
@@ -17,7 +18,12 @@ from involute.engine.centerline.tiles import shift_of  # noqa: E402
 from involute.engine.errors import InvoluteError  # noqa: E402
 from involute.synthesis import line_art, media, wear  # noqa: E402
 from involute.synthesis.line_art import Library  # noqa: E402
-from involute.training.centerline import losses, page_figures, training_page  # noqa: E402
+from involute.training.centerline import (  # noqa: E402
+    losses,
+    page_figures,
+    shared_pages,
+    training_page,
+)
 from involute.training.centerline.average import main as average  # noqa: E402
 from involute.training.centerline.export_centerline import (  # noqa: E402
     export,
@@ -26,11 +32,12 @@ from involute.training.centerline.export_centerline import (  # noqa: E402
     worst_difference,
 )
 from involute.training.centerline.page_batches import Pages, split  # noqa: E402
-from involute.training.centerline.restore_unet import restored  # noqa: E402
+from involute.training.centerline.page_figures import pooled  # noqa: E402
+from involute.training.centerline.restore_unet import restored, with_all_heads  # noqa: E402
 from involute.training.centerline.targets import targets  # noqa: E402
 from involute.training.centerline.train_centerline import main as train  # noqa: E402
 from involute.training.centerline.training_page import CHANNELS, page  # noqa: E402
-from involute.training.centerline.unet import STRIDE, CenterlineNet, Exported  # noqa: E402
+from involute.training.centerline.unet import HEADS, STRIDE, CenterlineNet, Exported  # noqa: E402
 
 
 @pytest.fixture(scope="session")
@@ -186,13 +193,34 @@ def test_a_run_stops_resumes_and_is_recorded(drawings, tmp_path):
     assert str(tmp_path) not in json.dumps(config)  # it is shipped with the weights
 
 
-def test_a_run_goes_on_from_shipped_weights(drawings, tmp_path):
-    torch.manual_seed(5)
-    net = CenterlineNet((4, 8)).eval()
+def _seasoned(net: CenterlineNet) -> CenterlineNet:
+    """With norms as a training leaves them, each with its own figures."""
     for layer in net.modules():
         if isinstance(layer, torch.nn.BatchNorm2d):
             layer.running_mean.uniform_(-1, 1)
             layer.running_var.uniform_(0.5, 2)
+    return net.eval()
+
+
+def test_several_runs_learn_from_pages_that_others_draw(drawings, tmp_path, monkeypatch):
+    bank = tmp_path / "pages"
+    monkeypatch.setattr(shared_pages, "_FEWEST", 3)
+    options = ["--data", str(drawings), "--out", str(bank), "--side", "96", "--keep", "4"]
+    drawing = Process(target=shared_pages.main, args=(options,))
+    drawing.start()
+    try:
+        batch = next(iter(shared_pages.SharedPages(bank, 5, 64, 96, 1)))
+    finally:
+        drawing.terminate()
+        drawing.join()
+    assert batch.shape == (5, len(CHANNELS), 64, 64)
+    assert batch.dtype == torch.uint8
+    assert batch[:, 1].any()
+
+
+def test_a_run_goes_on_from_shipped_weights(drawings, tmp_path):
+    torch.manual_seed(5)
+    net = _seasoned(CenterlineNet((4, 8)))
     export(net, tmp_path / "shipped.onnx")
     again = restored(tmp_path / "shipped.onnx")
     ink = torch.rand(1, 1, 64, 48)
@@ -244,7 +272,7 @@ def test_all_maps_and_the_features_reach_the_engine(tmp_path):
     both = load_both(tmp_path / "net.onnx", "cpu")
     maps = trace_both(ink, both, lambda fraction: None)
     assert maps.features.shape == (4, 76, 107)
-    for name in ("centerline", "half_width", "solid", "doubled", "apart", "clean"):
+    for name in ("centerline", "half_width", "solid", "doubled", "apart", "clean", "lifted"):
         assert getattr(maps, name).shape == ink.shape
     plain = trace_maps(ink, load(tmp_path / "net.onnx", "cpu"), lambda fraction: None)
     assert plain.features is None
@@ -272,6 +300,20 @@ def test_older_weights_have_five_maps_and_say_that_they_have_no_features():
             trace_both(ink, both, lambda fraction: None)
 
 
+@pytest.mark.parametrize("counts", [None, (0, 2, 1), (2, 1, 3)])
+def test_a_network_of_any_depth_is_read_back(tmp_path, counts):
+    torch.manual_seed(2)
+    net = _seasoned(CenterlineNet((4, 8, 12), counts))
+    export(net, tmp_path / "net.onnx")
+    keep(net, tmp_path / "net.pt")
+    ink = torch.rand(1, 1, 3 * STRIDE, 2 * STRIDE)
+    for name in ("net.onnx", "net.pt"):
+        again = restored(tmp_path / name)
+        assert [len(level) for level in again.encode] == list(counts or (1, 2, 2))
+        with torch.inference_mode():
+            torch.testing.assert_close(again(ink), net(ink), atol=2e-2, rtol=0)
+
+
 def test_weights_to_go_on_from_are_kept_with_their_norms(tmp_path):
     torch.manual_seed(1)
     net = CenterlineNet((4, 8)).eval()
@@ -284,4 +326,43 @@ def test_weights_to_go_on_from_are_kept_with_their_norms(tmp_path):
     start = Path(training_page.__file__).with_name("start.pt")
     state = torch.load(start, "cpu")["mean"]
     assert any("running_mean" in name for name in state)
-    assert restored(start).head.weight.shape[1] == len(CHANNELS) - 1
+    assert with_all_heads(restored(start)).head.weight.shape[1] == len(CHANNELS) - 1
+
+
+def test_training_goes_on_from_weights_with_fewer_heads(drawings, tmp_path):
+    torch.manual_seed(5)
+    old = _seasoned(CenterlineNet((4, 8)))
+    old.head = torch.nn.ConvTranspose2d(4, 5, 4, 2, 1)
+    ink, known = torch.rand(1, 1, 32, 48), old.head.out_channels
+    export(old, tmp_path / "old.onnx")
+    keep(old, tmp_path / "old.pt")
+    for file in ("old.onnx", "old.pt"):
+        again = restored(tmp_path / file)
+        with torch.inference_mode():
+            torch.testing.assert_close(again(ink), folded(old)(ink), atol=2e-2, rtol=0)
+            more = with_all_heads(again)(ink)
+        assert more.shape[1] == len(HEADS)
+        with torch.inference_mode():
+            torch.testing.assert_close(more[:, :known], folded(old)(ink), atol=2e-2, rtol=0)
+        assert more[:, known:].sigmoid().max() < 0.5  # of what it never learned it sees nothing
+    options = ["--data", str(drawings), "--run", str(tmp_path), "--workers", "0", "--batch", "1"]
+    train([*options, "--crop", "64", "--steps", "2", "--start-from", str(tmp_path / "old.onnx")])
+    assert restored(tmp_path / "checkpoint.pt").head.out_channels == len(HEADS)
+    # What the engine is not told it does not claim to see.
+    maps = trace_maps(np.zeros((64, 64), np.float32), load(tmp_path / "old.onnx", "cpu"), print)
+    assert maps.solid is not None
+    assert maps.clean is maps.lifted is None
+
+
+def test_lines_that_end_are_told_from_lines_that_go_on():
+    truth = np.zeros((len(HEADS), 64, 64), np.float32)
+    truth[[0, 7], 32, 4:60] = truth[[0, 7], 4:60, 20] = 1
+    truth[8, 32, 20:26] = [1, 0.9, 0.8, 0.7, 0.6, 0.5]
+    truth[1, 32, 20] = 1
+    figures = pooled([page_figures.page_figures(truth, truth)] * 2)
+    assert figures["lifted_auc"] == figures["lifted_near_auc"] == 1
+    blind = truth.copy()
+    blind[8] = 0.3
+    assert pooled([page_figures.page_figures(blind, truth)])["lifted_auc"] == 0.5
+    older = page_figures.page_figures(truth[:8], truth)
+    assert "lifted_auc" not in pooled([older])

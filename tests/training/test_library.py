@@ -8,7 +8,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-pytest.importorskip("shapely", reason="training needs Shapely")
 pytest.importorskip("torch", reason="training needs torch")
 
 from involute.synthesis import held_out_pages

@@ -8,15 +8,16 @@ import cv2
 import numpy as np
 import pytest
 
-pytest.importorskip("shapely", reason="training needs Shapely")
 pytest.importorskip("torch", reason="training needs torch")
 
 from involute.synthesis import extra_marks, held_out_pages, pencilling, tone_dots
 from involute.synthesis.line_art import Library, _spline
 from involute.synthesis.media import DIGITAL, MEDIA, NUDGE, draw, nearest
 from involute.synthesis.media import sample as samples_of
+from involute.synthesis.pen_lifts import Habit
 from involute.training.centerline import training_page
 from involute.training.centerline.lines_together import UNKNOWN, doubled
+from involute.training.centerline.pen_ends import lit_ends
 from involute.training.centerline.targets import ridge, targets
 from involute.training.centerline.training_page import CHANNELS, KINDS, Layer, page
 
@@ -71,7 +72,7 @@ def test_lines_of_one_bit_have_no_grey_and_no_gap(width: float, ends: tuple[floa
 def test_printed_rules_are_lines(library: Library) -> None:
     rng = np.random.default_rng(3)
     layer = training_page._printed(rng, 192)
-    maps, means = training_page._targets([layer], layer.ink)
+    maps, means, _ = training_page._targets([layer], layer.ink)
     assert (maps.centerline > 0.6).sum() > 192
     np.testing.assert_array_equal(means, maps.centerline)
 
@@ -82,7 +83,7 @@ def test_rules_taken_out_of_the_page_leave_nothing_where_they_cross_the_drawing(
         drawn = samples_of([stroke], size)
         ink, half = draw(np.random.default_rng(1), drawn, DIGITAL["crisp"], pen, size)
         layers.append(Layer(drawn, half, ink))
-    maps, _ = training_page._targets(layers, layers[0].ink)
+    maps, _, _ = training_page._targets(layers, layers[0].ink)
     np.testing.assert_array_equal(maps.centerline, ridge(layers[0].samples, size))
 
 
@@ -91,7 +92,7 @@ def test_screentone_has_no_target_and_lines_through_it_keep_theirs() -> None:
     assert dots.any()
     samples = samples_of([line(10, 96, 180, 96)], 192)
     ink, half = draw(np.random.default_rng(0), samples, DIGITAL["one bit"], 3.0, 192)
-    alone, _ = training_page._targets([Layer(samples, half, ink)], np.maximum(ink, dots))
+    alone, _, _ = training_page._targets([Layer(samples, half, ink)], np.maximum(ink, dots))
     np.testing.assert_array_equal(alone.centerline, ridge(samples, 192))
 
 
@@ -119,10 +120,15 @@ def test_a_sketch_means_its_true_lines_and_construction_means_nothing() -> None:
     for drawn, means in ((pencil, true), (axis, None)):
         ink, half = draw(np.random.default_rng(1), drawn, MEDIA["technical pen"], 2.0, size)
         layers.append(Layer(drawn, half, ink, means, is_rough=True))
-    maps, means = training_page._targets(layers, np.maximum(layers[0].ink, layers[1].ink))
+    ink = np.maximum(layers[0].ink, layers[1].ink)
+    maps, means, lit = training_page._targets(layers, ink)
     np.testing.assert_array_equal(means, ridge(true, size))
     assert maps.centerline[100, 62:66].max() > 0.8
     assert maps.centerline[61:64, 30].max() > 0.8
+    # The ends of a sketch are those of its true lines; construction has none.
+    assert lit[63:66, 12].max() > 0.6
+    assert lit[63:66, 116].max() > 0.6
+    assert lit[60:68, 40:90].max() == lit[:40].max() == lit[90:].max() == 0
 
 
 @pytest.mark.parametrize(("gap", "pen"), [(2.0, 2.0), (3.0, 4.0), (5.0, 7.0)])
@@ -141,6 +147,68 @@ def test_crossings_are_not_doubled_and_coinciding_lines_are_unknown() -> None:
     twice = samples_of([line(5, 40, 123, 40), line(5, 40.2, 123, 40.2)], 128)
     state, _ = doubled(twice, np.full(len(twice), 2.0))
     assert np.median(state) == UNKNOWN
+
+
+def lit_of(*strokes: np.ndarray, half: float = 1.5, inked: np.ndarray | None = None) -> np.ndarray:
+    samples = samples_of(list(strokes), 128)
+    return lit_ends(samples, np.full(len(samples), half), 128, inked)
+
+
+def test_of_a_touch_the_stem_is_lit_of_a_crossing_nothing() -> None:
+    lit = lit_of(line(0, 40.5, 128, 40.5), line(60.5, 40.5, 60.5, 128), line(90.5, -9, 90.5, 140))
+    stem = lit[40:60, 60]
+    assert stem[0] > 0.9
+    assert (np.diff(stem[1:12]) <= 0).all()
+    assert stem[5] == pytest.approx(0.5, abs=0.05)
+    assert stem[12:].max() < 0.02
+    assert lit[40, 64:].max() < 0.01  # the line that goes on
+    assert lit[:, 84:].max() < 0.01  # two that cross, and go off the page
+
+
+def test_a_corner_is_lit_where_the_pen_was_lifted_on_both_sides() -> None:
+    arms = line(20.5, 30.5, 70.5, 30.5), line(70.5, 30.5, 70.5, 100.5)
+    lifted, round_it = lit_of(*arms), lit_of(np.concatenate([arms[0], arms[1][1:]]))
+    for row, column in ((30, 65), (35, 70)):
+        assert lifted[row, column] > 0.4
+        assert round_it[row, column] == 0
+    assert round_it[30, 20] > 0.8
+
+
+def test_a_seam_that_meets_is_no_end_one_that_misses_is() -> None:
+    corners = np.array([(20, 20), (100, 20), (100, 100), (20, 100), (20, 20)], np.float32)
+    assert not lit_of(corners).any()
+    corners[-1] = 20, 26
+    assert lit_of(corners)[17:32, 17:32].max() > 0.9
+
+
+def test_short_strokes_are_lit_whole_and_broad_ones_farther() -> None:
+    dash = lit_of(line(50, 64.5, 58, 64.5))
+    assert dash[64, 50:58].min() > 0.5
+    broad = lit_of(line(10, 64.5, 120, 64.5), half=8.0)
+    assert broad[64, 22] > 0.3
+    assert broad[64, 40:90].max() == 0
+
+
+def test_an_end_without_ink_or_off_the_page_is_none() -> None:
+    inked = np.ones((128, 128), bool)
+    inked[:, :20] = False
+    lit = lit_of(line(10, 64.5, 100, 64.5), line(60.5, -3, 60.5, 40), inked=inked)
+    assert lit[64, :40].max() == 0
+    assert lit[64, 98] > 0.7
+    assert lit[:10].max() == 0
+    assert lit[39, 60] > 0.8
+
+
+def test_hands_that_lift_the_pen_cut_at_corners() -> None:
+    box = np.array([(30, 30), (98, 30), (98, 98), (30, 98), (30, 30)], np.float32)
+    hand = Habit(corners=1.0, seams=0.0, along=0.3, across=0.3, over=0.0, exact=0.0)
+    sides = training_page._by_hand(np.random.default_rng(1), [box], hand, 3.0)
+    assert len(sides) == 4
+    for side in sides:
+        assert 60 < np.hypot(*(side[-1] - side[0])) < 76
+    chosen = [training_page._habit(np.random.default_rng(k)) for k in range(200)]
+    share = sum(habit is not None for habit in chosen) / len(chosen)
+    assert 0.3 < share < 0.5
 
 
 @pytest.mark.parametrize("first", range(0, 24, 3))

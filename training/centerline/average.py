@@ -6,6 +6,7 @@ python -m involute.training.centerline.average A.onnx RUN/checkpoint.pt --out me
 from __future__ import annotations
 
 import argparse
+import copy
 from pathlib import Path
 
 from .export_centerline import export, worst_difference
@@ -28,7 +29,7 @@ def average(one: CenterlineNet, other: CenterlineNet) -> CenterlineNet:
     """The network in the middle; both have the same layers and no norms."""
     theirs = other.state_dict()
     mean = {name: (value + theirs[name]) / 2 for name, value in one.state_dict().items()}
-    net = CenterlineNet(tuple(len(level[0][0].weight) for level in one.encode), norms=False).eval()
+    net = copy.deepcopy(one)
     net.load_state_dict(mean)
     return net
 

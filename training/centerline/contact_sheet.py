@@ -11,8 +11,8 @@ from pathlib import Path
 import cv2
 import numpy as np
 
-from ...synthesis.line_art import Array, Library
-from .training_page import page
+from ...synthesis.line_art import Array
+from .page_batches import STREAMS
 
 
 def main(arguments: list[str] | None = None) -> None:
@@ -20,13 +20,15 @@ def main(arguments: list[str] | None = None) -> None:
     parser = argparse.ArgumentParser(prog="sheet", description=__doc__.splitlines()[0])
     parser.add_argument("--data", type=Path, required=True)
     parser.add_argument("--out", type=Path, required=True)
+    parser.add_argument("--pages", default="clean", choices=list(STREAMS))
     parser.add_argument("--count", type=int, default=100)
     parser.add_argument("--size", type=int, default=256)
     parser.add_argument("--seed", type=int, default=1)
     options = parser.parse_args(arguments)
-    library = Library.load(options.data)
+    stream = STREAMS[options.pages]
+    library = stream.load(options.data)
     pages = [
-        page(np.random.default_rng((options.seed, k)), library, options.size)
+        stream.draw(np.random.default_rng((options.seed, k)), library, options.size, False)
         for k in range(options.count)
     ]
     columns = int(np.ceil(np.sqrt(options.count)))
@@ -38,14 +40,19 @@ def main(arguments: list[str] | None = None) -> None:
 
 def show(maps: Array) -> Array:
     """A page as a picture, BGR: ink, targets (ridges green, junctions blue, ends red, solid areas
-    grey), and what the lines mean (white; doubled lines red, the farther apart the yellower)."""
+    grey), what the lines mean (white; doubled lines red, the farther apart the yellower), and where
+    the pen was lifted (red over the ink)."""
     ink = cv2.cvtColor(255 - maps[0], cv2.COLOR_GRAY2BGR)
     seen = np.stack([maps[2], maps[1], maps[3]], -1)
     seen = np.maximum(seen, maps[5][..., None] // 2)
     two = (maps[6] > 200) & (maps[1] > 60)
     means = np.repeat(maps[8][..., None], 3, -1)
     means[two] = np.stack([0 * maps[7], np.minimum(maps[7], 85) * 3, 0 * maps[7] + 255], -1)[two]
-    return np.pad(np.hstack([ink, seen, means]), ((0, 4), (0, 4), (0, 0)), constant_values=128)
+    lit = maps[9][..., None] / 255.0
+    lifted = ((128 + ink // 2) * (1 - lit) + lit * np.array([0, 0, 230])).astype(np.uint8)
+    return np.pad(
+        np.hstack([ink, seen, means, lifted]), ((0, 4), (0, 4), (0, 0)), constant_values=128
+    )
 
 
 if __name__ == "__main__":

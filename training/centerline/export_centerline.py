@@ -53,7 +53,7 @@ def folded(net: CenterlineNet) -> CenterlineNet:
     """The network with its normalisation folded into the weights, and these rounded to 16 bit."""
     net = copy.deepcopy(net).eval()
     for layer in net.modules():
-        if isinstance(layer, nn.Sequential) and isinstance(layer[-1], nn.ReLU):
+        if isinstance(layer, nn.Sequential) and len(layer) and isinstance(layer[-1], nn.ReLU):
             if isinstance(layer[1], nn.Identity):
                 continue
             layer[0] = fuse_conv_bn_eval(layer[0], layer[1])

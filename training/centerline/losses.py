@@ -57,13 +57,20 @@ def doubled_loss(raw: Tensor, two: Tensor, ridge: Tensor) -> Tensor:
     return loss / (weight.sum() + 1)
 
 
+def lifted_loss(raw: Tensor, lifted: Tensor, ridge: Tensor) -> Tensor:
+    """Cross entropy along the lines; a little off. Ends are rare: they count three times."""
+    weight = (ridge + 2 * lifted).clamp(min=0.02)
+    loss = functional.binary_cross_entropy_with_logits(raw, lifted, weight, reduction="sum")
+    return loss / (weight.sum() + 1)
+
+
 def total_loss(raw: Tensor, truth: Tensor, centerline: str = "bce_dice") -> dict[str, Tensor]:
     """Loss of each head, weighted so that the centerline leads, and "total".
 
-    raw and truth: (N, 8, H, W), channels as in model.HEADS. Half-width and apart are shares of
+    raw and truth: (N, 9, H, W), channels as in unet.HEADS. Half-width and apart are shares of
     MAX_HALF_WIDTH; they count on the ridge alone, apart on doubled ones.
     """
-    line, junctions, endpoints, half, solid, two, apart, clean = truth.unbind(1)
+    line, junctions, endpoints, half, solid, two, apart, clean, lifted = truth.unbind(1)
     seen = raw.contiguous().unbind(1)  # views of their own: the gradient of a slice is a whole map
     ridge = line * (line > 0.2)
     parts = {
@@ -75,6 +82,7 @@ def total_loss(raw: Tensor, truth: Tensor, centerline: str = "bce_dice") -> dict
         "doubled": 0.3 * doubled_loss(seen[5], two, ridge),
         "apart": 0.3 * relative_error(seen[6], apart, ridge * (two > 0.7)),
         "clean": 0.6 * CENTERLINE_LOSSES[centerline](seen[7], clean),
+        "lifted": 0.6 * lifted_loss(seen[8], lifted, clean * (clean > 0.2)),
     }
     parts["total"] = torch.stack(list(parts.values())).sum()
     return parts

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import cv2
 import numpy as np
 from scipy.spatial import cKDTree
 
 from ...synthesis.line_art import Array
 from .targets import MAX_HALF_WIDTH
+
+_LEVELS = 64  # of a map's values, in which they are counted
+_JUNCTION = 12  # px around a junction in which a line that passes it is told from one that ends
 
 
 def ridge_points(line: Array, level: float = 0.4) -> Array:
@@ -47,11 +52,11 @@ def _matched(found: Array, truth: Array, within: float) -> tuple[int, int]:
     return int(to_truth.sum()), int(to_found.sum())
 
 
-def page_figures(seen: Array, truth: Array, level: float = 0.4) -> dict[str, float]:
-    """Counts and sums of one page; seen, truth: (C, H, W) in [0, 1], channels as model.HEADS, the
-    first four at least; level: above which a crest counts as a line."""
+def page_figures(seen: Array, truth: Array, level: float = 0.4) -> dict[str, Any]:
+    """Counts and sums of one page, which can be added up; seen, truth: (C, H, W) in [0, 1],
+    channels as unet.HEADS, the first four at least; level: above which a crest counts as a line."""
     mine, true = ridge_points(seen[0], level), ridge_points(truth[0], 0.6)
-    out: dict[str, float] = {"mine": len(mine), "true": len(true)}
+    out: dict[str, Any] = {"mine": len(mine), "true": len(true)}
     out["mine_ok"], out["true_ok"] = _matched(mine, true, 1.5)
     out["distance"] = out["distance_n"] = 0.0
     if len(mine) and len(true):
@@ -65,7 +70,7 @@ def page_figures(seen: Array, truth: Array, level: float = 0.4) -> dict[str, flo
     ridge = truth[0] > 0.6
     out["half_error"] = float(np.abs(seen[3] - truth[3])[ridge].sum() * MAX_HALF_WIDTH)
     out["half_n"] = int(ridge.sum())
-    return out | _further_figures(seen, truth, ridge, level)
+    return out | _further_figures(seen, truth, ridge, level) | _ends_told(seen, truth)
 
 
 def _further_figures(seen: Array, truth: Array, ridge: Array, level: float) -> dict[str, float]:
@@ -84,7 +89,32 @@ def _further_figures(seen: Array, truth: Array, ridge: Array, level: float) -> d
     return out
 
 
-def pooled(figures: list[dict[str, float]]) -> dict[str, float]:
+def _ends_told(seen: Array, truth: Array) -> dict[str, Any]:
+    """How often each value of the map `lifted` is seen on lines that end and on lines that go on;
+    everywhere, and near junctions alone, where no free end gives it away."""
+    if len(seen) < 9:
+        return {}
+    line, lifted = truth[7] > 0.6, truth[8]
+    value = np.clip(seen[8] * _LEVELS, 0, _LEVELS - 1).astype(int)
+    wide = np.ones((2 * _JUNCTION + 1,) * 2, np.uint8)
+    near = (cv2.dilate(truth[1], wide) > 0.5) & (cv2.dilate(truth[2], wide) < 0.5)
+    out = {}
+    for name, where in (("lifted", line), ("lifted_near", line & near)):
+        out[f"{name}_ends"] = np.bincount(value[where & (lifted > 0.4)], minlength=_LEVELS)
+        out[f"{name}_goes_on"] = np.bincount(value[where & (lifted < 0.02)], minlength=_LEVELS)
+    return out
+
+
+def _told_apart(higher: Array, lower: Array) -> float:
+    """Area under the curve: how often one of those counted in `higher` has the larger value than
+    one of `lower`; a half where there are none."""
+    if not higher.sum() or not lower.sum():
+        return 0.5
+    below = np.cumsum(lower) - lower / 2
+    return float((higher * below).sum() / (higher.sum() * lower.sum()))
+
+
+def pooled(figures: list[dict[str, Any]]) -> dict[str, float]:
     """Precision, recall and mean distances over pages."""
     sums = {k: sum(f[k] for f in figures) for k in figures[0]}
 
@@ -109,4 +139,8 @@ def pooled(figures: list[dict[str, float]]) -> dict[str, float]:
             "doubled_recall": share("doubled_ok", "doubled_true"),
             "apart_error_px": share("apart_error", "doubled_true"),
         }
+    if "lifted_ends" in sums:
+        for name in ("lifted", "lifted_near"):
+            told = _told_apart(sums[f"{name}_ends"], sums[f"{name}_goes_on"])
+            figures[f"{name}_auc"] = round(told, 4)
     return figures

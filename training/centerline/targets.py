@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import shapely
 from involute.engine.centerline.learned import HALF_WIDTH_UNIT
 from scipy.spatial import cKDTree
 
@@ -88,21 +87,24 @@ def find_crossings(samples: Samples) -> Array:
     stroke, arc = s.stroke[:-1][joined], s.arc[:-1][joined]
     if len(a) < 2:
         return np.zeros((0, 2))
-    chords = shapely.linestrings(np.stack([a, b], 1))
-    i, j = shapely.STRtree(chords).query(chords, predicate="intersects")
-    once = (i < j) & ((stroke[i] != stroke[j]) | (np.abs(arc[i] - arc[j]) > 4.0))
-    i, j = i[once], j[once]
-    r, q = b[i] - a[i], b[j] - a[j]
-    cross = r[:, 0] * q[:, 1] - r[:, 1] * q[:, 0]
-    size = np.hypot(*r.T) * np.hypot(*q.T)
-    clear = np.abs(cross) > _MIN_ANGLE * size
-    i, r, q, cross, j = i[clear], r[clear], q[clear], cross[clear], j[clear]
-    gap = a[j] - a[i]
-    t = (gap[:, 0] * q[:, 1] - gap[:, 1] * q[:, 0]) / cross
+    longest = float(np.hypot(*(b - a).T).max())
+    i, j = cKDTree((a + b) / 2).query_pairs(longest, output_type="ndarray").T
+    other = (stroke[i] != stroke[j]) | (np.abs(arc[i] - arc[j]) > 4.0)
+    i, j = i[other], j[other]
+    r, q, gap = b[i] - a[i], b[j] - a[j], a[j] - a[i]
+    clear = np.abs(_cross(r, q)) > _MIN_ANGLE * np.hypot(*r.T) * np.hypot(*q.T)
+    i, j, r, q, gap = (of[clear] for of in (i, j, r, q, gap))
+    t, u = _cross(gap, q) / _cross(r, q), _cross(gap, r) / _cross(r, q)
+    meet = (t >= 0) & (t <= 1) & (u >= 0) & (u <= 1)
+    i, j, r, t = (of[meet] for of in (i, j, r, t))
     # A closed stroke meets itself, and a corner another stroke's end, without a junction.
     points = a[i] + t[:, None] * r
     at_end = _at_end(samples, stroke[i], points) & _at_end(samples, stroke[j], points)
     return points[~at_end]
+
+
+def _cross(a: Array, b: Array) -> Array:
+    return a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
 
 
 def _at_end(samples: Samples, stroke: Array, points: Array) -> Array:

@@ -7,13 +7,14 @@ screentone, folds, stains, smudges and what shows through from the back have non
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import cv2
 import numpy as np
 from involute.engine.scan.paper import flatten_paper
 
 from ...synthesis import pencilling
+from ...synthesis.composed_pages import with_ends
 from ...synthesis.extra_marks import mark, printed
 from ...synthesis.line_art import Array, Library, Rng, Strokes, broken, invented, true_drawing
 from ...synthesis.media import (
@@ -27,9 +28,11 @@ from ...synthesis.media import (
     noise,
     sample,
 )
+from ...synthesis.pen_lifts import Habit, lifted
 from ...synthesis.sheet_of_paper import clean, paper, scan, shadow
 from ...synthesis.tone_dots import screentone
 from ...synthesis.wear import dust
+from .pen_ends import lit_ends
 from .targets import MAX_HALF_WIDTH, Targets, ridge, targets
 
 _MIN_SPACING = 2.7  # px; denser hatching is a tone, not lines
@@ -38,22 +41,26 @@ _HIDDEN_OVER = 121  # samples; what lies under a wide pen for longer can't be fo
 _GONE = 0.3  # share of a stroke that must be seen for any of it to count
 # Channels of a page, uint8: 255 * map; half-width and apart are 255 * px / MAX_HALF_WIDTH.
 CHANNELS = ("ink", "centerline", "junctions", "endpoints", "half_width", "solid")
-CHANNELS += ("doubled", "apart", "clean")
+CHANNELS += ("doubled", "apart", "clean", "lifted")
 # Kinds of pages and how often they are drawn.
 KINDS = {"paper": 0.65, "digital": 0.2, "rough": 0.05, "many pens": 0.08, "brush": 0.02}
+_LIFTING = 0.4  # share of the pages on paper or screen whose artist lifts the pen at corners
+_STEADY = (1.5, 6.0)  # px of pen by which ends move; a hand with a broad pen is no clumsier
 _WEAK = ("charcoal", "soft pencil", "charcoal", "pencil")  # media that need more practice
 
 
 @dataclass(frozen=True, eq=False)
 class Layer:
     """What one pen drew. ink: (size, size); half: (N,) px for each sample; means: the lines that
-    the strokes stand for, when they are not these themselves (none: nothing)."""
+    the strokes stand for, when they are not these themselves (none: nothing); strays: px that the
+    ink may lie off the samples."""
 
     samples: Samples
     half: Array
     ink: Array
     means: Samples | None = None
     is_rough: bool = False
+    strays: float = 0.0
 
 
 def page(
@@ -64,7 +71,7 @@ def page(
     only: str | None = None,
     kind: str | None = None,
 ) -> Array:
-    """A page as (9, size, size) uint8, channels as in CHANNELS.
+    """A page as (10, size, size) uint8, channels as in CHANNELS.
 
     The same generator state gives the same page; held_out picks from the validation drawings,
     only names the one medium to draw with, kind one of KINDS.
@@ -72,18 +79,26 @@ def page(
     if kind is None:
         kind = "paper" if only else str(rng.choice(list(KINDS), p=list(KINDS.values())))
     layers = _LAYERS[kind](rng, library, size, held_out, only)
+    return looked_at(rng, layers, library, size, held_out, kind == "digital")
+
+
+def looked_at(
+    rng: Rng, layers: list[Layer], library: Library, size: int, held_out: bool, digital: bool
+) -> Array:
+    """The page of some layers as (10, size, size) uint8: on a sheet, scanned and cleaned, or as a
+    drawing program hands it on."""
     solid = _solids(rng, size) if rng.random() < 0.15 else np.zeros((size, size), np.float32)
     ink = _together([layer.ink for layer in layers], size)
-    ink = 1 - (1 - ink) * (1 - solid * (1.0 if kind == "digital" else rng.uniform(0.85, 1.0)))
+    ink = 1 - (1 - ink) * (1 - solid * (1.0 if digital else rng.uniform(0.85, 1.0)))
     if rng.random() < 0.1:
-        ink = np.maximum(ink, screentone(rng, size, kind == "digital"))
-    if kind == "digital":
+        ink = np.maximum(ink, screentone(rng, size, digital))
+    if digital:
         cleaned = _digital(rng, ink)
     else:
         gray = _photograph(rng, ink, library, size, held_out)
         cleaned = flatten_paper(gray) if rng.random() < 0.6 else clean(rng, gray)
-    maps, means = _targets(layers, cleaned)
-    return _pack(cleaned, maps, means, (solid < 0.5).astype(np.float32), solid)
+    maps, means, ends = _targets(layers, cleaned)
+    return _pack(cleaned, maps, means, ends, (solid < 0.5).astype(np.float32), solid)
 
 
 def _on_paper(
@@ -91,6 +106,7 @@ def _on_paper(
 ) -> list[Layer]:
     """Drawings in one medium or a few, some of them on ruled sheets."""
     layers = [_printed(rng, size)] if rng.random() < 0.16 else []
+    hand = _habit(rng)
     medium = _medium(rng, only)
     pen = _pen(rng, medium)
     faint = rng.uniform(0.12, 0.5) if rng.random() < 0.12 else 1.0
@@ -99,7 +115,7 @@ def _on_paper(
             medium = _medium(rng, only)
             pen = _pen(rng, medium)
         own = faint if rng.random() < 0.85 else rng.uniform(0.2, 0.9)
-        layers.append(_drawn(rng, strokes, medium, pen, widest, size, own))
+        layers.append(_drawn(rng, strokes, medium, pen, widest, size, own, hand))
     return [layer for layer in layers if layer]
 
 
@@ -111,11 +127,11 @@ def _digital_lines(
     pen = _pen(rng, medium)
     if rng.random() < 0.5:
         pen = max(1.0, round(pen))
-    layers = []
+    hand, layers = _habit(rng), []
     for strokes, widest in _compose(rng, library, size, held_out, marks=0.4):
         if rng.random() < 0.2:
             pen = _pen(rng, medium)
-        layers.append(_drawn(rng, strokes, medium, pen, widest, size))
+        layers.append(_drawn(rng, strokes, medium, pen, widest, size, hand=hand))
     return [layer for layer in layers if layer]
 
 
@@ -169,13 +185,13 @@ def _many_pens(
     rng: Rng, library: Library, size: int, held_out: bool, only: str | None
 ) -> list[Layer]:
     """Every drawing with a pen of its own, 1.5 to 34 px wide."""
-    layers = []
+    hand, layers = _habit(rng), []
     drawings = _compose(rng, library, size, held_out)
     for strokes, widest in drawings + _compose(rng, library, size, held_out)[:1]:
         pen = float(np.exp(rng.uniform(np.log(1.5), np.log(34))))
         wide = ("marker", "technical pen", "brush", "soft pencil", "crisp")
         medium = (MEDIA | DIGITAL)[str(rng.choice(wide))] if pen > 8 else _medium(rng, only)
-        layers.append(_drawn(rng, strokes, medium, pen, 2 * widest, size))
+        layers.append(_drawn(rng, strokes, medium, pen, 2 * widest, size, hand=hand))
     return [layer for layer in layers if layer]
 
 
@@ -215,8 +231,12 @@ def _drawn(
     widest: float,
     size: int,
     strength: float = 1.0,
+    hand: Habit | None = None,
 ) -> Layer | None:
-    """Strokes with a pen that suits them, some of them dashed; None where nothing can be seen."""
+    """Strokes with a pen that suits them, some of them dashed; None where nothing can be seen.
+
+    hand: how their artist lifts the pen, in pen widths.
+    """
     strokes = [stroke + NUDGE for stroke in _sane(strokes, size)]
     samples = sample(strokes, size)
     spacing = line_spacing(samples, size)
@@ -225,12 +245,34 @@ def _drawn(
     if rng.random() < 0.9:
         widest = min(widest, 0.8 * spacing)
     width = max(0.9, min(pen * rng.uniform(0.9, 1.1), widest))
+    if hand:
+        strokes = _by_hand(rng, strokes, hand, width)
+        samples = sample(strokes, size)
     if medium.grain[1] <= 0.3 and rng.random() < 0.15:
         samples = sample(broken(rng, strokes, width + 1.5) or strokes, size)
         if len(samples) < 2:
             return None
     ink, half = draw(rng, samples, medium, width, size)
     return Layer(samples, half, ink * strength)
+
+
+def _habit(rng: Rng) -> Habit | None:
+    """How the artist of a page lifts the pen, lengths in pen widths; None = as the drawings do."""
+    if rng.random() >= _LIFTING:
+        return None
+    return Habit.drawn(rng, 1.0, str(rng.choice(["lifting", "mixed"], p=[0.6, 0.4])))
+
+
+def _by_hand(rng: Rng, strokes: Strokes, hand: Habit, width: float) -> Strokes:
+    """Strokes cut where a hand lifts its pen of `width` px, ends moved; half of all such hands
+    miss the lines that other strokes end on, too."""
+    pen = float(np.clip(width, *_STEADY))
+    hand = replace(hand, along=pen * hand.along, across=pen * hand.across, over=pen * hand.over)
+    if hand.exact < 0.5:
+        strokes = [
+            with_ends(line, *rng.normal(0.5 * hand.over, 0.5 * hand.along, 2)) for line in strokes
+        ]
+    return [line.astype(np.float32) for line in lifted(rng, strokes, hand)]
 
 
 def _compose(
@@ -264,14 +306,14 @@ def _sane(strokes: Strokes, size: int) -> Strokes:
 
 
 def _medium(rng: Rng, only: str | None) -> Medium:
-    weak = not only and rng.random() < 0.15
+    weak = not only and rng.random() < 0.25
     return MEDIA[only or str(rng.choice(_WEAK if weak else list(MEDIA)))]
 
 
 def _pen(rng: Rng, medium: Medium) -> float:
     """Full width, px: the medium's own range; fine pens are often 1 to 2 px."""
     low, high = medium.width
-    if low < 1.6 and rng.random() < 0.35:
+    if low < 1.6 and rng.random() < 0.55:
         low, high = 0.9, 2.0
     return float(np.exp(rng.uniform(np.log(low), np.log(high))))
 
@@ -284,28 +326,32 @@ def _together(inks: list[Array], size: int) -> Array:
     return 1 - paper_left
 
 
-def _targets(layers: list[Layer], ink: Array) -> tuple[Targets, Array]:
-    """The maps of all strokes that can be seen in the ink, and the ridge of what they mean."""
+def _targets(layers: list[Layer], ink: Array) -> tuple[Targets, Array, Array]:
+    """The maps of all strokes that can be seen in the ink, the ridge of what they mean, and the
+    ends of that; a sketch has those of its true lines."""
     size = len(ink)
-    if not layers:
-        return Targets.blank(size), np.zeros((size, size), np.float32)
     seen = [_seen(layer, layers, ink) for layer in layers]
     kept = [(la, s) for la, s in zip(layers, seen, strict=True) if np.count_nonzero(s) > 1]
     if not kept:
-        return Targets.blank(size), np.zeros((size, size), np.float32)
+        return Targets.blank(size), *np.zeros((2, size, size), np.float32)
     merged = Samples.merge([layer.samples.take(s) for layer, s in kept])
-    maps = targets(merged, np.concatenate([layer.half[s] for layer, s in kept]), size)
+    half = np.concatenate([layer.half[s] for layer, s in kept])
+    maps = targets(merged, half, size)
     if not any(layer.is_rough for layer in layers):
-        return maps, maps.centerline
+        strays = max(layer.strays for layer in layers)
+        return maps, maps.centerline, lit_ends(merged, half, size, _inked(ink, strays))
     meant = [la.means for la in layers if la.is_rough and la.means is not None]
     meant += [layer.samples.take(s) for layer, s in kept if not layer.is_rough]
-    return maps, ridge(Samples.merge(meant), size) if meant else np.zeros_like(maps.centerline)
+    if not meant:
+        return maps, *np.zeros((2, size, size), np.float32)
+    true = Samples.merge(meant)
+    return maps, ridge(true, size), lit_ends(true, np.zeros(len(true)), size)
 
 
 def _seen(layer: Layer, layers: list[Layer], ink: Array) -> Array:
     """Which samples of a layer can be seen, (N,); of strokes that are gone, none: rules taken out
     of the page would still show where they cross the drawing."""
-    seen = _visible(layer.samples.position, ink) & ~_hidden(layer, layers)
+    seen = _visible(layer.samples.position, ink, layer.strays) & ~_hidden(layer, layers)
     position, stroke = layer.samples.position, layer.samples.stroke
     on_page = ((position >= 0) & (position < len(ink))).all(1)
     shown = np.bincount(stroke, seen & on_page)
@@ -313,15 +359,21 @@ def _seen(layer: Layer, layers: list[Layer], ink: Array) -> Array:
     return seen & ~gone[stroke]
 
 
-def _visible(points: Array, ink: Array) -> Array:
-    """Which of (N, 2) samples along strokes show: most of the 24 px along them is inked.
+def _visible(points: Array, ink: Array, strays: float = 0.0) -> Array:
+    """Which of (N, 2) samples along strokes show: most of the 24 px along them is inked, or lies so
+    many px off what is.
 
     Nobody can trace what the paper's grain has swallowed. Points off the page count as well.
     """
-    inked = cv2.dilate(ink, np.ones((3, 3), np.uint8)) > 0.035
+    inked = _inked(ink, strays)
     near = _over(_at(inked, points), _SEEN_OVER)
     # On grainy paper a stroke must do better than the grain.
     return near > max(0.42, min(0.9, 0.3 + inked.mean()))
+
+
+def _inked(ink: Array, strays: float = 0.0) -> Array:
+    """Where a line's ink can be seen, a px from its centre at most, or so much more."""
+    return cv2.dilate(ink, np.ones((3 + 2 * round(strays),) * 2, np.uint8)) > 0.035
 
 
 def _hidden(layer: Layer, layers: list[Layer]) -> Array:
@@ -421,7 +473,7 @@ def _show_through(rng: Rng, library: Library, size: int, held_out: bool) -> Arra
     return cv2.GaussianBlur(back, (0, 0), rng.uniform(1.2, 3)) * rng.uniform(0.03, 0.16)
 
 
-def _pack(ink: Array, maps: Targets, means: Array, keep: Array, solid: Array) -> Array:
+def _pack(ink: Array, maps: Targets, means: Array, ends: Array, keep: Array, solid: Array) -> Array:
     layers = [
         ink,
         maps.centerline * keep,
@@ -432,5 +484,6 @@ def _pack(ink: Array, maps: Targets, means: Array, keep: Array, solid: Array) ->
         maps.doubled * keep,
         maps.apart * keep / MAX_HALF_WIDTH,
         means * keep,
+        ends * keep,
     ]
     return np.round(np.clip(np.stack(layers), 0, 1) * 255).astype(np.uint8)

@@ -14,19 +14,25 @@ from torch import Tensor, nn
 WIDTHS = (24, 48, 96, 128)
 STRIDE = 2 ** len(WIDTHS)  # both sides of an input are multiples of this
 HEADS = ("centerline", "junctions", "endpoints", "half_width", "solid")
-HEADS += ("doubled", "apart", "clean")
+HEADS += ("doubled", "apart", "clean", "lifted")
 
 
 class CenterlineNet(nn.Module):
-    """(N, 1, H, W) ink in [0, 1] -> (N, 8, H, W) raw values, channels as in HEADS.
+    """(N, 1, H, W) ink in [0, 1] -> (N, 9, H, W) raw values, channels as in HEADS.
 
-    On the way down, levels have two 3x3 convolutions, the finest has one; on the way up all have
-    one. The finest level adds what comes from below, the others append it: half the work at
-    the resolution that costs most. Without norms the convolutions have biases instead: what a
+    widths: channels of the levels, from the finest to the coarsest. counts: 3x3 convolutions of
+    each on the way down, without a choice one at the finest and two at the others; on the way up
+    all have one. The finest level adds what comes from below, the others append it: half the work
+    at the resolution that costs most. Without norms the convolutions have biases instead: what a
     network with norms is exported as.
     """
 
-    def __init__(self, widths: tuple[int, ...] = WIDTHS, norms: bool = True) -> None:
+    def __init__(
+        self,
+        widths: tuple[int, ...] = WIDTHS,
+        counts: tuple[int, ...] | None = None,
+        norms: bool = True,
+    ) -> None:
         super().__init__()
 
         def conv(
@@ -39,7 +45,7 @@ class CenterlineNet(nn.Module):
             )
 
         pairs = list(pairwise(widths))
-        counts = [1] + [2] * len(pairs)
+        counts = counts or (1, *[2] * len(pairs))
         self.stem = conv(1, widths[0], 4, 2, 1)
         self.encode = nn.ModuleList(
             nn.Sequential(*(conv(w, w) for _ in range(count)))

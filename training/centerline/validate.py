@@ -9,6 +9,7 @@ import argparse
 import json
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import cv2
 import numpy as np
@@ -63,7 +64,7 @@ def main(arguments: list[str] | None = None) -> None:
         options.json.write_text(json.dumps(table, indent=1))
 
 
-def judge(drawn: Array, provider: Callable[[Scan], LineMaps]) -> dict[str, float]:
+def judge(drawn: Array, provider: Callable[[Scan], LineMaps]) -> dict[str, Any]:
     """Counts of `metrics.page_figures` for one page, channels as sample.CHANNELS, uint8."""
     truth = drawn[1:].astype(np.float32) / 255
     ink = drawn[0].astype(np.float32) / 255
@@ -74,6 +75,8 @@ def judge(drawn: Array, provider: Callable[[Scan], LineMaps]) -> dict[str, float
     maps = [seen.centerline, *others, half / HALF_WIDTH_UNIT, nothing]
     if seen.clean is not None:
         maps += [seen.doubled, seen.apart / HALF_WIDTH_UNIT, seen.clean]
+    if seen.lifted is not None:
+        maps.append(seen.lifted)
     return page_figures(np.stack(maps), truth)
 
 
