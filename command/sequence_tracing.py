@@ -11,6 +11,7 @@ from ..engine.drawing import Drawing
 from ..engine.errors import InvoluteError
 from ..engine.grain import is_decided
 from ..engine.pipeline import grain_of
+from ..engine.scan.preparing import SEEN_AT
 from ..engine.sequence.follow import Follower
 from ..engine.sequence.frames import Frame
 from ..engine.settings import Settings
@@ -50,7 +51,7 @@ def trace_sequence(
             `Cancelled`.
 
     Raises:
-        InvoluteError: a parts folder that can't be made.
+        InvoluteError: a parts folder that can't be made or written.
     """
     if parts is None:
         with temporary_folder() as folder:
@@ -58,7 +59,8 @@ def trace_sequence(
                 frames, settings, jobs=jobs, parts=folder, follow=follow, progress=progress
             )
         return
-    tasks = part_tasks(frames, _seen_alike(frames, settings or Settings()), parts)
+    seen = _seen_alike(frames, settings or Settings(), make_folder(Path(parts)))
+    tasks = part_tasks(frames, seen, parts)
     numbers = {task: k for k, task in enumerate(tasks)}
     follower = Follower()
     done: dict[int, batch.Outcome] = {}
@@ -75,14 +77,24 @@ def trace_sequence(
             following += 1
 
 
-def _seen_alike(frames: Sequence[Frame], settings: Settings) -> Settings:
-    """The settings for all frames: they are looked at as suits the first one."""
+def _seen_alike(frames: Sequence[Frame], settings: Settings, folder: Path) -> Settings:
+    """The settings for all frames: they are looked at as suits the first one.
+
+    That is remembered beside the parts in `folder`, and asked again of another picture only.
+    """
     if not frames or is_decided(settings):
         return settings
+    first, receipt = frames[0], receipts.path_for(folder / "grain")
     try:
-        return replace(settings, grain=grain_of(frames[0].path, settings, frames[0].page))
-    except InvoluteError:  # told when its turn comes
+        key = receipts.fingerprint(first.path, first.page, settings)
+        known = receipts.read(receipt).report
+        if known.get("of") == key and known.get("grain") in SEEN_AT:
+            return replace(settings, grain=known["grain"])
+        grain = grain_of(first.path, settings, first.page)
+    except (InvoluteError, OSError):  # told when its turn comes
         return settings
+    receipts.note(receipt, key, {}, {"of": key, "grain": grain})
+    return replace(settings, grain=grain)
 
 
 def part_tasks(

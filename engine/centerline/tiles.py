@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import cv2
 import numpy as np
@@ -21,10 +22,10 @@ from ..values import Array
 BLOCK = 32  # px; tiles begin and end at multiples of it (and of the network's stride)
 BEYOND = 16  # px of paper around the page: a network answers differently at the rim of what it sees
 CONTEXT = 96  # px that a network sees beyond a tile, so that the tile's size makes no difference
-# px; longest side of a window, which bounds the memory (540 MB, or 240 MB on pages that are large
-# themselves). Windows of 1536 px look at 14 to 56 % less than those of 1024 px on A4 pages, and a
-# page of 1024 px is one window.
-LARGEST, LARGEST_OF_LARGE = 1536, 1024
+# px of a window at most, which bounds the memory (540 MB, or 240 MB on pages that are large
+# themselves). Windows of 1536 x 1536 px look at 14 to 56 % less than those of 1024 x 1024 px on A4
+# pages, and a page of 1024 px is one window. They may be long: strips overlap less than squares.
+LARGEST, LARGEST_OF_LARGE = 1536**2, 1024**2
 _LARGE = 24_000_000  # px of a page
 _PAPER_CONTEXT = 64  # px, where it is blank
 _CELL = 16  # px; ink is looked for in cells of this size
@@ -32,6 +33,7 @@ _INK = 0.04  # mean of 3x3 px above which paper counts as inked
 _SURE_INK = 0.3  # what is fainter does not say where the middle of the ink is
 _BAND = 512  # px; rows looked at together when there is no window, which bounds the memory
 _OVERHEAD = 1.0  # blocks; what the call of a network costs beside its pixels
+_AROUND = 2 * CONTEXT // BLOCK  # blocks that a window has more than its tile, either way
 
 
 @dataclass(frozen=True)
@@ -131,8 +133,8 @@ def active_blocks(ink: Array, shift: tuple[int, int] = (0, 0)) -> Array:
 def _cover(active: Array, largest: int) -> list[tuple[int, int, int, int]]:
     """Disjoint rectangles (top, left, bottom, right) in blocks over all active blocks.
 
-    A rectangle is cut in two where that leaves the least to look at, as long as its window is too
-    large or cutting is cheaper than not.
+    A rectangle is cut in two where that leaves the least to look at, further cuts foreseen, as long
+    as its window is too large or cutting is cheaper than not.
     """
     height, width = active.shape
     done: list[tuple[int, int, int, int]] = []
@@ -143,11 +145,11 @@ def _cover(active: Array, largest: int) -> list[tuple[int, int, int, int]]:
             continue
         top, left, bottom, right = box
         inside = active[top:bottom, left:right]
-        high = _window(top, bottom, active.shape[0]) > largest
-        wide = _window(left, right, active.shape[1]) > largest
-        cost_y, y = _best_cut(inside, largest) if high or not wide else (float("inf"), 0)
-        cost_x, x = _best_cut(inside.T, largest) if wide or not high else (float("inf"), 0)
-        if not (high or wide) and min(cost_x, cost_y) >= _cost(*inside.shape):
+        fits = _window(top, bottom, height) * _window(left, right, width) <= largest
+        whole = _window_cost(*inside.shape) if fits else float("inf")
+        cost_y, y = _best_cut(inside, largest)
+        cost_x, x = _best_cut(inside.T, largest)
+        if whole <= min(cost_x, cost_y):
             done.append(box)
         elif cost_y <= cost_x:
             open_ += [(top, left, top + y, right), (top + y, left, bottom, right)]
@@ -177,37 +179,40 @@ def _trim(active: Array, box: tuple[int, int, int, int]) -> tuple[int, int, int,
     )
 
 
-def _cost(height: Array | int, width: Array | int) -> Array | float:
+def _window_cost(height: Array | float, width: Array | float) -> Any:
     """What looking at a tile costs, in blocks, its context included."""
-    around = 2 * CONTEXT / BLOCK
-    return (height + around) * (width + around) + _OVERHEAD
+    return (height + _AROUND) * (width + _AROUND) + _OVERHEAD
+
+
+def _cost(height: Array, width: Array, largest: int) -> Array:
+    """(N,) what looking at rectangles costs, in blocks, each cut evenly into tiles that fit."""
+    most = largest / BLOCK**2
+    cost: Array = np.full(len(height), np.inf)
+    for columns in range(1, 2 + int(width.max() / (most**0.5 - _AROUND))):
+        high = most / (width / columns + _AROUND) - _AROUND  # of a tile
+        rows = np.ceil(height / np.maximum(high, 1))
+        cost = np.minimum(cost, rows * columns * _window_cost(height / rows, width / columns))
+    return cost
 
 
 def _best_cut(active: Array, largest: int) -> tuple[float, int]:
     """The cost of both parts of a block mask, cut at the best row, and that row (below the cut)."""
-    rows, columns = active.shape
-    if rows < 2:
+    if len(active) < 2:
         return float("inf"), 0
-    used = active.any(1)
-    first = np.where(used, active.argmax(1), columns)
-    last = np.where(used, columns - active[:, ::-1].argmax(1), 0)
-    row = np.arange(rows)
-
-    def upper(first: Array, last: Array, used: Array) -> Array:
-        # Width and height of the part that holds rows 0..k, without its empty rows.
-        wide = np.maximum.accumulate(last) - np.minimum.accumulate(first)
-        begin = used.argmax()
-        end = np.maximum.accumulate(np.where(used, row + 1, 0))
-        return np.where(end > 0, _cost(end - begin, wide), 0)
-
-    above = upper(first, last, used)[:-1]
-    below = upper(first[::-1], last[::-1], used[::-1])[::-1][1:]
-    total = above + below
-    # Of equal costs the cut wins that leaves the fewest parts of almost full size.
-    parts = -(-rows // ((largest - 2 * CONTEXT) // BLOCK))
-    even = np.abs(np.arange(1, rows) - rows * max(1, parts // 2) / max(2, parts))
-    best = np.lexsort((even, np.round(total, 3)))[0]
+    total = _upper_cost(active, largest)[:-1] + _upper_cost(active[::-1], largest)[::-1][1:]
+    uneven = np.abs(np.arange(1, len(active)) - len(active) / 2)
+    best = np.lexsort((uneven, np.round(total, 3)))[0]
     return float(total[best]), int(best) + 1
+
+
+def _upper_cost(active: Array, largest: int) -> Array:
+    """(rows,) what the rows 0 to k of a block mask cost; the first one has active blocks."""
+    rows, columns = active.shape
+    used = active.any(1)
+    left = np.minimum.accumulate(np.where(used, active.argmax(1), columns))
+    right = np.maximum.accumulate(np.where(used, columns - active[:, ::-1].argmax(1), 0))
+    bottom = np.maximum.accumulate(np.where(used, np.arange(1, rows + 1), 0))
+    return _cost(bottom, right - left, largest)
 
 
 def look(

@@ -138,15 +138,15 @@ def _proposed(course: _Course, maps: LineMaps) -> Array:
     signs = np.where(clear, np.stack(told), 0.0)
     signs[1:, _near_free_end(course, every)] = 0.0
     strength = signs.sum(0)
-    best = signs.max(0) >= 1
+    best = np.flatnonzero(signs.max(0) >= 1)
     for k in range(1, arm + 1):
-        best &= strength >= strength[course.step(every, k)]
-        before = course.step(every, -k)
-        best &= (strength > strength[before]) | (before == every)
+        before = course.step(best, -k)
+        later = strength[best] >= strength[course.step(best, k)]
+        best = best[later & ((strength[best] > strength[before]) | (before == best))]
     whole = np.ones(graph.branch_count, bool)
-    whole[np.searchsorted(graph.offsets, np.flatnonzero(best), "right") - 1] = False
+    whole[np.searchsorted(graph.offsets, best, "right") - 1] = False
     starts = graph.offsets[:-1][course.ring[graph.offsets[:-1]] & whole]
-    return np.sort(np.concatenate([np.flatnonzero(best), starts]))
+    return np.sort(np.concatenate([best, starts]))
 
 
 def _near_free_end(course: _Course, place: Array) -> Array:

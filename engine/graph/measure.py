@@ -132,4 +132,6 @@ def _agreed(graph: PlanarGraph, values: Array) -> Array:
     first = np.repeat(graph.offsets[:-1], count)[:, None]
     last = np.repeat(graph.offsets[1:] - 1, count)[:, None]
     window = np.clip(index + np.arange(-LIMITS.width_agreed, LIMITS.width_agreed + 1), first, last)
-    return np.median(values[window], axis=1)
+    middle = LIMITS.width_agreed
+    agreed: Array = np.partition(values[window], middle, axis=1)[:, middle]
+    return agreed

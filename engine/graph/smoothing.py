@@ -73,11 +73,13 @@ def smooth(graph: PlanarGraph, passes: int) -> PlanarGraph:
     ]
     inner = (index > first) & (index < last) | ring
     inner &= last - first >= 4
-    here = index[inner]
-    first, last, ring = first[inner, None], last[inner, None], ring[inner, None]
-    around = here[:, None] + np.arange(-2, 3)
     # Rings go round (their first point is their last one too); other branches go on mirrored in
     # their end point, so that they neither shrink nor bend there.
+    edge = inner & ((index - first < 2) | (last - index < 2))
+    within = (inner & ~edge)[2:-2, None]
+    here = index[edge]
+    first, last, ring = first[edge, None], last[edge, None], ring[edge, None]
+    around = here[:, None] + np.arange(-2, 3)
     period = last - first
     wrapped = first + (around - first) % period
     mirror = np.where(around < first, first, last)
@@ -88,6 +90,11 @@ def smooth(graph: PlanarGraph, passes: int) -> PlanarGraph:
     for _ in range(passes):
         near = points[source]
         near = np.where(flip, 2 * points[mirror] - near, near)
+        far, beside, own = _PARABOLA[:3]
+        laid = own * points[2:-2]
+        laid += beside * (points[1:-3] + points[3:-1])
+        laid += far * (points[:-4] + points[4:])
+        np.copyto(points[2:-2], laid, where=within)
         points[here] = np.einsum("k,nkd->nd", _PARABOLA, near)
     vertices = graph.vertices.copy()
     vertices[graph.ends[:, 0]] = points[starts]

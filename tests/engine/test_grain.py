@@ -7,7 +7,8 @@ from pathlib import Path
 import cv2
 import numpy as np
 import pytest
-from involute.command import trace_sequence
+from involute.command import sequence_tracing
+from involute.command.sequence_tracing import trace_sequence
 from involute.engine import Settings, vectorize
 from involute.engine.grain import is_decided, is_torn
 from involute.engine.pipeline import grain_of
@@ -127,6 +128,24 @@ def test_a_sequence_is_looked_at_as_suits_its_first_frame(
         drawings = [drawing for _, drawing in trace_sequence(frames, jobs=1)]
         assert [drawing.settings.grain for drawing in drawings] == [grain, grain]
         assert len(drawings[0].strokes) == (4 if first == "a" else 5)
+
+
+def test_a_resumed_sequence_does_not_look_at_its_first_frame_again(
+    charcoal: np.ndarray, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked = []
+
+    def counted(*picture: object) -> str:
+        asked.append(picture)
+        return "medium"
+
+    monkeypatch.setattr(sequence_tracing, "grain_of", counted)
+    for picture, times in ((charcoal, 1), (charcoal, 1), (page("technical pen", 3.0), 2)):
+        cv2.imwrite(str(tmp_path / "1.png"), picture)
+        frames = number_frames([str(tmp_path / "1.png")])
+        ((_, drawing),) = trace_sequence(frames, jobs=1, parts=tmp_path / "parts")
+        assert drawing.settings.grain == "medium"
+        assert len(asked) == times
 
 
 def test_what_says_how_it_is_seen_is_kept_to(charcoal: np.ndarray) -> None:

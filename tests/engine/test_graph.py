@@ -8,6 +8,7 @@ import pytest
 from involute.engine import Settings
 from involute.engine.graph import Evidence, build_graph, ridge
 from involute.engine.graph.ridge import Ridge
+from involute.engine.graph.skeleton import thin
 from involute.engine.values import LineMaps, PlanarGraph
 
 SIZE = 120
@@ -53,6 +54,16 @@ def distance_to(line: np.ndarray, points: np.ndarray) -> np.ndarray:
     way = (line[1] - line[0]) / np.hypot(*(line[1] - line[0]))
     offset = points - line[0]
     return np.abs(offset[:, 0] * way[1] - offset[:, 1] * way[0])
+
+
+@pytest.mark.parametrize("share", [0.2, 0.5, 0.8])
+def test_a_mask_is_thinned_as_opencv_thins_it(share: float) -> None:
+    noise = np.random.default_rng(3).random((90, 70)).astype(np.float32)
+    mask = (cv2.GaussianBlur(noise, (0, 0), 2) > np.quantile(noise, 0.5)) | (noise < share / 4)
+    mask = mask.astype(np.uint8) * np.uint8(255)
+    framed = cv2.copyMakeBorder(mask, 1, 1, 1, 1, cv2.BORDER_CONSTANT, value=0)
+    expected = cv2.ximgproc.thinning(framed, thinningType=cv2.ximgproc.THINNING_GUOHALL)
+    np.testing.assert_array_equal(thin(mask), expected[1:-1, 1:-1])
 
 
 def test_blank_page() -> None:
