@@ -11,7 +11,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from itertools import combinations, pairwise
+from itertools import pairwise
 
 import numpy as np
 
@@ -102,7 +102,8 @@ class _Marks:
         if not runs:
             return None
         # A dash that ends on another line may go on beyond it.
-        runs += [(far, one, long) for one, far, long in runs if far not in set(loose.tolist())]
+        begun = set(loose.tolist())
+        runs += [(far, one, long) for one, far, long in runs if far not in begun]
         half, far, length = (np.array(column) for column in zip(*runs, strict=True))
         number = np.full(2 * graph.branch_count, _NONE)
         number[half] = np.arange(len(half))
@@ -174,10 +175,11 @@ def _links(marks: _Marks, known: list[Link]) -> tuple[Array, Array]:
     fits &= marks.over[a] != b
     order = np.argsort((gap * (2 - ahead))[fits], kind="stable")
     nearest = zip(a[fits][order].tolist(), b[fits][order].tolist(), strict=True)
+    there = set(known)
     for one, other in [*known, *nearest]:
         toward = marks.tip[other] - marks.tip[one]
         toward = toward / max(float(np.hypot(*toward)), 1e-9)
-        if (one, other) not in known:
+        if (one, other) not in there:
             one, other = (
                 _side(marks, link, way, end, to) for end, to in ((one, toward), (other, -toward))
             )
@@ -242,12 +244,14 @@ def _behind_lines(runs: list[list[Link]], marks: _Marks, way: Array, scan: Scan)
         ends += [int(marks.over[run[0][0]]), int(marks.over[run[-1][1]])]
         inner = marks.length[[b for _, b in run[:-1]]]
         step += [float(np.median(inner)) + float(np.median([marks.gap(*link) for link in run]))] * 2
+    end, due = np.array(ends), np.array(step)
+    i, j = near_pairs(marks.tip[end], (2 + 2 * LIMITS.dash_uneven) * max(step)).T
+    gap = np.hypot(*(marks.tip[end[j]] - marks.tip[end[i]]).T)
+    two_on = np.abs(gap / np.maximum(due[i], due[j]) - 2) <= 2 * LIMITS.dash_uneven
+    two_on &= marks.over[end[i]] != end[j]
     found: list[tuple[float, Link]] = []
-    for i, j in combinations(range(len(ends)), 2):
-        a, b = ends[i], ends[j]
+    for a, b in np.stack([end[i], end[j]], -1)[two_on].tolist():
         far = marks.gap(a, b)
-        if abs(far / max(step[i], step[j]) - 2) > 2 * LIMITS.dash_uneven or marks.over[a] == b:
-            continue
         line = marks.across(a, b, way)
         to = (marks.tip[b] - marks.tip[a]) / far
         ahead = min(marks.heading(a, way) @ to, -marks.heading(b, way) @ to)
@@ -255,9 +259,11 @@ def _behind_lines(runs: list[list[Link]], marks: _Marks, way: Array, scan: Scan)
         if hidden and ahead > np.cos(np.radians(LIMITS.dash_turn)):
             found.append((far, (a, b)))
     links: list[Link] = []
-    for _, (a, b) in sorted(found):
-        if not {a, b} & {end for link in links for end in link}:
-            links.append((a, b))
+    taken: set[int] = set()
+    for _, link in sorted(found):
+        if taken.isdisjoint(link):
+            links.append(link)
+            taken.update(link)
     return links
 
 

@@ -105,17 +105,18 @@ class _Shapes:
 
     @staticmethod
     def of(graph: PlanarGraph) -> _Shapes:
-        samples, length = along(graph, REACH)
+        axis = _Axis.of(graph)
+        length = axis.length
 
         def line(windows: Array) -> tuple[Array, Array]:
-            low = along(graph, np.minimum(windows[:, 0], 0.3 * length[:, None]))[0]
-            heading = _unit(along(graph, windows[:, 1])[0] - low)
+            low = axis.seen(np.minimum(windows[:, 0], 0.3 * length[:, None]))
+            heading = _unit(axis.seen(windows[:, 1]) - low)
             return heading, (np.conj(heading) * low).imag
 
         heading, offset = line(WINDOWS)
         frame = line(FRAME)[0][:, 0]
-        tip = along(graph, np.array([np.inf]))[0][:, 0]
-        return _Shapes(samples / REACH, frame, heading, offset, length, tip)
+        tip = axis.seen(np.array([np.inf]))[:, 0]
+        return _Shapes(axis.seen(REACH) / REACH, frame, heading, offset, length, tip)
 
 
 def along(graph: PlanarGraph, reach: Array) -> tuple[Array, Array]:
@@ -128,34 +129,65 @@ def along(graph: PlanarGraph, reach: Array) -> tuple[Array, Array]:
     Returns:
         (2B, S) complex x + iy, and the (2B,) length of the branch, px.
     """
-    points = graph.points[:, 0].astype(np.float64) + 1j * graph.points[:, 1]
-    where, arc, length = _places(graph, reach)
-    ends = np.stack([graph.offsets[:-1], graph.offsets[1:] - 1], 1).reshape(-1)
-    found = np.interp(where, arc, points) if len(points) else where.astype(complex)
-    return found - points[ends][:, None], length
+    axis = _Axis.of(graph)
+    return axis.seen(reach), axis.length
 
 
-def _places(graph: PlanarGraph, reach: Array) -> tuple[Array, Array, Array]:
-    """All branches laid end to end: (2B, S) where on that axis each half-branch is after `reach`,
-    the (P,) points on it, and the (2B,) length of each half-branch's branch, px."""
-    first, last = graph.offsets[:-1], graph.offsets[1:] - 1
-    step = np.hypot(*np.diff(graph.points.astype(np.float64), axis=0, prepend=graph.points[:1]).T)
-    step[first] = 1.0  # a gap between branches, so that the arc length grows for ever
-    arc = np.cumsum(step)
-    length = np.repeat(arc[last] - arc[first], 2)
-    origin = np.stack([arc[first], arc[last]], 1).reshape(-1)
-    sign = np.tile([1.0, -1.0], graph.branch_count)
-    return origin[:, None] + sign[:, None] * np.minimum(reach, length[:, None]), arc, length
+@dataclass(frozen=True, eq=False)
+class _Axis:
+    """All branches laid end to end.
+
+    points: (P,) complex x + iy; arc: (P,) where they lie on that axis; start: (2B,) the point that
+    each half-branch starts at, sign: (2B,) the way that it runs, length: (2B,) of its branch, px.
+    """
+
+    points: Array
+    arc: Array
+    start: Array
+    sign: Array
+    length: Array
+
+    @staticmethod
+    def of(graph: PlanarGraph) -> _Axis:
+        points = graph.points.astype(np.float64)
+        first, last = graph.offsets[:-1], graph.offsets[1:] - 1
+        step = np.hypot(*np.diff(points, axis=0, prepend=points[:1]).T)
+        step[first] = 1.0  # a gap between branches, so that the arc length grows for ever
+        arc = np.cumsum(step)
+        return _Axis(
+            points[:, 0] + 1j * points[:, 1],
+            arc,
+            np.stack([first, last], 1).reshape(-1),
+            np.tile([1.0, -1.0], graph.branch_count),
+            np.repeat(arc[last] - arc[first], 2),
+        )
+
+    def places(self, reach: Array) -> Array:
+        """(2B, S) where each half-branch is on the axis after some arc length, as in `along`."""
+        way = self.sign[:, None] * np.minimum(reach, self.length[:, None])
+        return self.arc[self.start][:, None] + way
+
+    def seen(self, reach: Array) -> Array:
+        """(2B, S) the same on the page, from the vertex that it starts at, complex x + iy."""
+        if not len(self.points):
+            return self.places(reach).astype(complex)
+        found = np.interp(self.places(reach), self.arc, self.points)
+        return found - self.points[self.start][:, None]
 
 
-def _rise(graph: PlanarGraph, values: Array | None) -> Array:
-    """(2B,) how much larger a value of the points is near the junction than farther out; zeros
-    where it is unknown. A stroke that ends at the junction may taper or fade towards it."""
-    if values is None or not len(values):
-        return np.zeros(2 * graph.branch_count)
-    where, arc, _ = _places(graph, np.concatenate([INK_NEAR, INK_FAR]))
-    seen = np.interp(where, arc, values)
-    return seen[:, : len(INK_NEAR)].mean(1) - seen[:, len(INK_NEAR) :].mean(1)
+def _rise(graph: PlanarGraph, *of_points: Array | None) -> list[Array]:
+    """(2B,) for each value of the points, how much larger it is near the junction than farther out;
+    zeros where it is unknown. A stroke that ends at the junction may taper or fade towards it."""
+    axis = _Axis.of(graph)
+    places = axis.places(np.concatenate([INK_NEAR, INK_FAR]))
+    found = []
+    for values in of_points:
+        if values is None or not len(values):
+            found.append(np.zeros(2 * graph.branch_count))
+        else:
+            seen = np.interp(places, axis.arc, values)
+            found.append(seen[:, : len(INK_NEAR)].mean(1) - seen[:, len(INK_NEAR) :].mean(1))
+    return found
 
 
 def _unit(z: Array) -> Array:
@@ -216,6 +248,7 @@ def _token_features(
     width, strength, _ = _appearance(graph)
     length = shape.length[half]
     log_width = None if graph.widths is None else np.log(np.maximum(graph.widths, 0.3))
+    wider, darker = _rise(graph, log_width, graph.strength)
     scalars = (
         np.log(np.maximum(length, 0.5) / 16.0),
         np.minimum(length / 16.0, 1.0),
@@ -226,8 +259,8 @@ def _token_features(
         width[half >> 1],
         np.full(len(half), graph.widths is not None),
         strength[half >> 1],
-        2.0 * _rise(graph, log_width)[half],
-        4.0 * _rise(graph, graph.strength)[half],
+        2.0 * wider[half],
+        4.0 * darker[half],
     )
     return np.concatenate(
         [

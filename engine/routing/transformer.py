@@ -2,8 +2,8 @@
 
 A page has junctions of 3 half-branches and few of more. A runtime for networks wants a table with
 room for the most at every one of them; here those of one degree stand together, nothing is padded,
-and the same sums (to rounding) take less time. They are made with twice the digits that are handed
-on: how many threads NumPy's matrix products use changes their rounding, but not what is left of it.
+and the same sums (to rounding) take less time. The large matrix products are OpenCV's: NumPy's are
+rounded otherwise by each number of threads, OpenCV's are the same for a row whatever is beside it.
 """
 
 from __future__ import annotations
@@ -13,10 +13,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .. import onnx_file
+from .. import onnx_file, runtimes
+from ..onnx_file import Network, Node
 from ..values import Array
 
-_EPSILON = 1e-5  # of torch's LayerNorm
+_EPSILON = np.float32(1e-5)  # of torch's LayerNorm
+_ROWS = 512  # multiplied at a time: they stay in the processor's cache, and bound the memory
 # The matrices without a name in the file, in the order in which the network uses them.
 _BEFORE = ("token.0", "token.2", "pair", "pair_from", "pair_to", "pair_out")
 _LAYER = ("qkv", "bias", "out", "mix.0", "mix_out", "overview")
@@ -67,10 +69,11 @@ class Transformer:
         names = [*_BEFORE, *(f"layers.{k}.{n}" for k in range(layers) for n in _LAYER), *_AFTER]
         if not layers or len(used) != len(names):
             raise ValueError("this is no routing network")
-        known |= {f"{name}.weight": known[m] for name, m in zip(names, used, strict=True)}
-        self._weights: Mapping[str, Array] = {
-            name: np.asarray(weight, np.float64) for name, weight in known.items()
+        self._linears = {
+            name: _Linear(known[m], known.get(f"{name}.bias"))
+            for name, m in zip(names, used, strict=True)
         }
+        self._weights: Mapping[str, Array] = known
         self._layers = layers
         self._heads = len(known["layers.0.bias.bias"])
 
@@ -94,12 +97,13 @@ class Transformer:
         number[flat] = np.arange(len(flat))
         other = number[sibling.reshape(-1)[flat]]
 
-        x = self._linear("token.0", tokens.reshape(mask.size, -1)[flat].astype(np.float64))
+        x = self._linear("token.0", tokens.reshape(mask.size, -1)[flat])
         x = self._linear("token.2", np.maximum(x, 0, out=x))
         e = self._edges(x, pairs, groups)
         for layer in range(self._layers):
             x = self._layer(f"layers.{layer}.", x, e, groups, other)
-            x += self._linear(f"layers.{layer}.overview", x.mean(0, keepdims=True))
+            mean = x.mean(0, keepdims=True, dtype=np.float64).astype(np.float32)
+            x += self._linear(f"layers.{layer}.overview", mean)
         found = self._scored(self._norm("last", x), e, groups)
         for g in groups:
             slots = g.slots
@@ -107,11 +111,7 @@ class Transformer:
         return scores
 
     def _linear(self, name: str, rows: Array) -> Array:
-        made: Array = rows @ self._weights[f"{name}.weight"]
-        bias = self._weights.get(f"{name}.bias")
-        if bias is not None:
-            made += bias
-        return made
+        return self._linears[name](rows)
 
     def _norm(self, name: str, x: Array) -> Array:
         away = x - x.mean(-1, keepdims=True)
@@ -123,9 +123,7 @@ class Transformer:
     def _edges(self, x: Array, pairs: Array, groups: list[_Group]) -> Array:
         """(P, edge) what is known of every ordered pair, the same both ways."""
         near = [pairs[g.rows[:, None, None], g.slots[:, :, None], g.slots[:, None]] for g in groups]
-        e = self._linear(
-            "pair", np.concatenate([n.reshape(-1, pairs.shape[3]) for n in near], dtype=np.float64)
-        )
+        e = self._linear("pair", np.concatenate([n.reshape(-1, pairs.shape[3]) for n in near]))
         start, end = self._linear("pair_from", x), self._linear("pair_to", x)
         for g in groups:
             of = g.of_pairs(e)
@@ -143,12 +141,12 @@ class Transformer:
         y = self._linear(f"{name}qkv", self._norm(f"{name}norm", x))
         q, k, v = (part.reshape(count, heads, depth) for part in np.split(y, 3, 1))
         bias = self._linear(f"{name}bias", e)
-        heard = np.empty((count, width + heads * e.shape[1]))
+        heard = np.empty((count, width + heads * e.shape[1]), np.float32)
         for g in groups:
             n, d = g.shape
             near, far, own = (g.halves(part).transpose(0, 2, 1, 3) for part in (q, k, v))
             logits: Array = near @ far.transpose(0, 1, 3, 2)
-            logits *= depth**-0.5
+            logits *= np.float32(depth**-0.5)
             logits += g.of_pairs(bias).transpose(0, 3, 1, 2)
             logits -= logits.max(3, keepdims=True)
             attention = np.exp(logits, out=logits)
@@ -176,6 +174,26 @@ class Transformer:
             np.multiply(tokens[:, :, None], tokens[:, None], out=into)
         z += self._linear("head_product", product)
         return self._linear("score", np.maximum(z, 0, out=z))[:, 0]
+
+
+class _Linear:
+    """Rows (N, K) float32 times a matrix (K, M), plus (M,) if there is that; in OpenCV."""
+
+    def __init__(self, weight: Array, bias: Array | None) -> None:
+        self._size = weight.shape[1]
+        nodes, weights = [Node("MatMul", ["rows", "weight"], ["made"], {})], {"weight": weight}
+        if bias is not None:
+            nodes.append(Node("Add", ["made", "bias"], ["sum"], {}))
+            weights["bias"] = bias
+        # The file says that rows are an image; OpenCV takes them as they are.
+        content = onnx_file.write(Network(nodes, weights, ["rows"], nodes[-1].outputs))
+        self._net = runtimes.RUNTIMES[-1].load(content)
+
+    def __call__(self, rows: Array) -> Array:
+        made = np.empty((len(rows), self._size), np.float32)
+        for at in range(0, len(rows), _ROWS):
+            (made[at : at + _ROWS],) = self._net({"rows": rows[at : at + _ROWS]}, 1)
+        return made
 
 
 def _groups(filled: Array) -> list[_Group]:

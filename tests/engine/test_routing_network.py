@@ -233,10 +233,13 @@ def test_missing_or_damaged_weights_are_said_in_a_sentence(tmp_path: Path) -> No
 def test_any_number_of_threads_gives_the_same_scores() -> None:
     """NumPy's matrix products round by how many threads share the work."""
     program = """
+import os
+import cv2
 import numpy as np
 from involute.engine import Settings
 from involute.engine.routing import route
 from involute.synthesis.true_graph import graph_from_strokes
+cv2.setNumThreads(int(os.environ["OMP_NUM_THREADS"]))
 for seed in range(8):
     ends = np.random.default_rng(seed).uniform(10, 390, (6 + 4 * seed, 2, 2))
     graph, _ = graph_from_strokes([np.linspace(a, b, 60) for a, b in ends])
@@ -249,4 +252,4 @@ for seed in range(8):
         done = subprocess.run(command, env=surroundings, capture_output=True, text=True, check=True)
         return done.stdout
 
-    assert scores(1) == scores(2)
+    assert scores(1) == scores(2) == scores(3)
