@@ -25,7 +25,6 @@ ARM = 1.5  # pen widths of line on both sides that tell a corner
 LEAST_ARM = 4  # px
 TURN = np.radians(35.0)  # over the arm; nine in ten lifts at corners turn by more
 SUDDEN = 0.5  # share of the turn that half the arm must have; 0.5 on a circle
-ENDED_SIZE = 10  # columns of `_ended`, the last of the evidence
 ENDED = 0.35  # of the endpoint map
 FADED = 0.4  # share of the branch's own brightness below which the line is broken
 CLEAR = 1.5  # pen widths from a junction or free end; nearer, it is that one's business
@@ -33,7 +32,6 @@ FREE, LEAST_FREE = 3.0, 8  # pen widths and px from a free end, which the endpoi
 _REACH = np.array([0.5, 1.0, 1.5, 2.0, 3.0])  # pen widths beyond a corner: overshoots
 _SHARP = np.radians(60.0)  # a turn that nobody takes for a curve
 _IN_LINE = np.cos(np.radians(35.0))  # two directions that are one line
-_LIT = np.arange(2, 11)  # px from a corner; over them the map of lifts falls to 0 before an end
 _SCALES = (0.75, 1.5, 3.0, 6.0)  # pen widths; arms over which a turn is measured
 
 
@@ -212,14 +210,13 @@ def evidence(course: _Course, places: Array, scan: Scan, maps: LineMaps) -> Arra
         _beyond(course, places, scan, maps),
         _between(course, places, scan, maps),
         _page(course, places, maps),
-        _ended(course, places, maps),
     ]
     return np.concatenate(parts, axis=1, dtype=np.float32)
 
 
 def evidence_size() -> int:
     """F, how many numbers that is."""
-    return len(_SCALES) + 11 + 11 + 4 * len(_REACH) + 12 + 15 + ENDED_SIZE
+    return len(_SCALES) + 11 + 11 + 4 * len(_REACH) + 12 + 15
 
 
 def _two(a: Array, b: Array) -> list[Array]:
@@ -416,29 +413,6 @@ def _missed(course: _Course, free: Array) -> list[float]:
     line = (out[a[close]] * out[b[close]]).sum(1) < -_IN_LINE
     found = [float((nearest < k).sum()) for k in (1, 2, 3)]
     return [*found, float((~line).sum()), float(line.sum())]
-
-
-def _ended(course: _Course, places: Array, maps: LineMaps) -> Array:
-    """What the map of lifts says along both sides; zeros, the last column too, without the map."""
-    if maps.lifted is None:
-        return np.zeros((len(places), ENDED_SIZE))
-    seen = np.stack(
-        [
-            sample(maps.lifted, course.graph.points[course.step(places[:, None], sign * _LIT)])
-            for sign in (-1, 1)
-        ]
-    ).astype(np.float64)
-    near, far = seen[..., 1:4].mean(-1), seen[..., 6:].mean(-1)
-    return np.column_stack(
-        [
-            *_two(*seen[..., 1:7].mean(-1)),
-            *_two(*seen.max(-1)),
-            *_two(*(near - far)),
-            *_two(*far),
-            sample(maps.lifted, course.graph.points[places]),
-            np.ones(len(places)),
-        ]
-    )
 
 
 def _outward(course: _Course, halves: Array) -> Array:
