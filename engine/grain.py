@@ -8,6 +8,7 @@ smaller sizes as well, and the drawing that says as much with far fewer strokes 
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Protocol
 
 import cv2
 import numpy as np
@@ -54,25 +55,43 @@ def is_torn(drawing: Drawing, scan: Scan) -> bool:
     return loose * pen > _TORN * max(length, 1.0) and _spread(scan.ink, scan.pen_width) < _SOFT
 
 
-def simplest(close: Drawing, look: Callable[[str], Drawing]) -> tuple[Drawing, str]:
+class Look(Protocol):
+    """A page that can be traced from some distance."""
+
+    def area_count(self) -> int:
+        """How many solid areas are seen; that is known soon."""
+        ...
+
+    def drawing(self) -> Drawing: ...
+
+
+def simplest(close: Drawing, look: Callable[[str], Look]) -> tuple[Drawing, str]:
     """The drawing of a torn page that is kept, and from where it was looked at.
 
     Args:
-        close: its drawing from close by. look: makes the drawing for another value of
-            `Settings.grain`.
+        close: its drawing from close by. look: at the page, for another value of `Settings.grain`.
     """
-    coarse = look("coarse")
-    if len(coarse.fills) < len(close.fills):
+    first = look("coarse")
+    if first.area_count() < len(close.fills):
         return close, "fine"  # an ink drawing: its solid areas fall apart from afar
+    coarse = first.drawing()
     if not _says_as_much(coarse, close, _COARSE):
-        if _left(coarse, close) < _HOPE and _says_as_much(seen := look("medium"), close, _MEDIUM):
+        if _left(coarse, close) < _HOPE and (seen := _as_good(look("medium"), close, _MEDIUM)):
             return seen, "medium"
         return close, "fine"
     if _left(coarse, close) < _TATTERED:
-        seen = look("coarsest")
-        if _left(seen, coarse) < _FEWER and _says_as_much(seen, close, _TATTERED):
+        seen = _as_good(look("coarsest"), close, _TATTERED)
+        if seen and _left(seen, coarse) < _FEWER:
             return seen, "coarsest"
     return coarse, "coarse"
+
+
+def _as_good(look: Look, than: Drawing, share: float) -> Drawing | None:
+    """What is drawn from there, if it says as much as another drawing."""
+    if look.area_count() < len(than.fills):
+        return None  # its lines need not be looked at
+    drawing = look.drawing()
+    return drawing if _says_as_much(drawing, than, share) else None
 
 
 def _says_as_much(drawing: Drawing, than: Drawing, share: float) -> bool:

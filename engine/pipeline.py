@@ -131,7 +131,7 @@ def _seen_well(trace: Callable[[Settings], _Trace], settings: Settings) -> tuple
     scan, drawing = close.scan(), close.drawing()
     if not is_torn(drawing, scan):
         return drawing, "fine"
-    return simplest(drawing, lambda grain: trace(replace(settings, grain=grain)).drawing())
+    return simplest(drawing, lambda grain: trace(replace(settings, grain=grain)))
 
 
 def _closely(settings: Settings) -> Settings:
@@ -194,6 +194,9 @@ class _Trace:
             self._made("solids", found)
         self._own["solids"] = found
         return found
+
+    def area_count(self) -> int:
+        return len(self.solids()[2])
 
     def maps(self) -> LineMaps:
         if (found := self._recalled("centerline")) is not None:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..arrays.ragged import offsets_of
 from ..values import Array
 
 
@@ -32,20 +33,22 @@ def follow(source: Array, back: Array, is_node: Array) -> tuple[Array, Array]:
 
     jump = _next(source, back, is_node)
     left = (jump != np.arange(len(jump))).astype(np.int32)
-    while True:
-        farther = jump[jump]
-        if np.array_equal(farther, jump):
-            break
-        left += left[jump]
-        jump = farther
+    moving = np.flatnonzero(left)
+    while len(moving):
+        farther = jump[jump[moving]]
+        left[moving] += left[jump[moving]]
+        goes_on = farther != jump[moving]
+        jump[moving] = farther
+        moving = moving[goes_on]
     # jump now leads to the chain's last half-edge; keep the direction whose last one is lower.
     first = np.flatnonzero(is_node[source])
     first_of = np.zeros(len(source), np.int32)
     first_of[jump[first]] = first
     kept = np.flatnonzero(jump < back[first_of[jump]])
-    kept = kept[np.lexsort((-left[kept], jump[kept]))].astype(np.int32)
-    bounds = np.flatnonzero(np.diff(jump[kept], prepend=-1, append=-1))
-    return kept, bounds.astype(np.int32)
+    last, size = jump[kept], np.bincount(jump[kept], minlength=len(jump))
+    order = np.empty(len(kept), np.int32)
+    order[np.cumsum(size)[last] - 1 - left[kept]] = kept
+    return order, offsets_of(size[size > 0]).astype(np.int32)
 
 
 def _next(source: Array, back: Array, is_node: Array) -> Array:
@@ -59,10 +62,12 @@ def _next(source: Array, back: Array, is_node: Array) -> Array:
 
 def _ring_starts(source: Array, jump: Array) -> Array:
     """The lowest point of every ring that passes no node."""
-    following, lowest, reach = jump, source, 1
+    following, jump, lowest, reach = jump, jump.copy(), source.copy(), 1
+    moving = np.arange(len(source))
     # Whoever has come to rest stands on a half-edge that follows itself; in a ring nobody does.
-    while (moving := following[jump] != jump).any() and reach <= len(source):
-        lowest = np.minimum(lowest, lowest[jump])
-        jump = jump[jump]
+    while len(moving := moving[following[jump[moving]] != jump[moving]]) and reach <= len(source):
+        ahead = jump[moving]
+        lowest[moving] = np.minimum(lowest[moving], lowest[ahead])
+        jump[moving] = jump[ahead]
         reach *= 2
     return np.unique(lowest[moving])

@@ -71,13 +71,15 @@ class Ridge:
         for top in range(0, len(mask), BAND):
             bright = self.value[top : top + BAND] > LIMITS.ridge_faint
             if bright.any():
-                rows, columns = np.nonzero(bright)
-                second = self._curvatures(top, top + len(bright))
-                dxx, dxy, dyy = (a[rows, columns] for a in second)
-                mean, spread = (dxx + dyy) / 2, np.hypot((dxx - dyy) / 2, dxy)
+                dxx, dxy, dyy = self._curvatures(top, top + len(bright))
+                mean = (dxx + dyy) / 2
+                rows, columns = np.nonzero(bright & (mean > 0))
+                across = (dxx[rows, columns] - dyy[rows, columns]) / 2
+                spread = np.hypot(across, dxy[rows, columns])
                 # Curved upwards more than downwards = beside a line or between two of them.
-                inside = ~((mean > 0) & (mean + spread > LIMITS.ridge_valley))
-                mask[top + rows[inside], columns[inside]] = 255
+                aside = mean[rows, columns] + spread > LIMITS.ridge_valley
+                mask[top : top + BAND] = bright * np.uint8(255)
+                mask[top + rows[aside], columns[aside]] = 0
         # Drop what is faint all over.
         rows, columns = np.nonzero(mask)
         count, labels = cv2.connectedComponents(mask, connectivity=8, ltype=cv2.CV_32S)
