@@ -67,7 +67,7 @@ def caution(log_odds: Array, decided: Array, turns: Array) -> float:
     """
     lift = np.where(decided == 0, probability(-log_odds), decided < 0)[turns > _SHARP]
     habit = (float(lift.sum()) + _USUAL) / (len(lift) + 1)
-    return _CAUTION * float(probability((_HABIT - habit) / _CHANGE))
+    return _CAUTION * float(probability(np.array((_HABIT - habit) / _CHANGE)))
 
 
 def _turns(graph: PlanarGraph) -> Array:
