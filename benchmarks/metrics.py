@@ -170,7 +170,7 @@ def evaluate(predicted: Sequence[Array], truth: Sequence[Array], *, failed: bool
         true_branching=len(true_branching),
         branching_found=tuple(_matched(true_branching, found, r) for r in CROSSING_RADII),
         branching_matched=_matched(true_branching, branching, CROSSING_RADII[0]),
-        recovered=_recovered(pred, true),
+        recovered=recovered(pred, true),
         continuations=continuations,
         continuations_kept=kept,
         wrong_joins=wrong,
@@ -310,12 +310,12 @@ def chamfer(pred: Strokes, true: Strokes) -> float:
     return float(there + back) / 2
 
 
-def _coverage(strokes: Strokes, others: Strokes) -> csr_matrix:
-    """(S, T): the share of each stroke that runs within `_NEAR` of each other one (sparse)."""
+def _coverage(strokes: Strokes, others: Strokes, within: float = _NEAR) -> csr_matrix:
+    """(S, T): the share of each stroke that runs within so many px of each other one (sparse)."""
     shape = (len(strokes), len(others))
     if strokes.tree is None or others.tree is None:
         return coo_matrix(shape).tocsr()
-    near = strokes.tree.sparse_distance_matrix(others.tree, _NEAR, output_type="ndarray")
+    near = strokes.tree.sparse_distance_matrix(others.tree, within, output_type="ndarray")
     once = np.unique(near["i"] * shape[1] + others.stroke[near["j"]])
     sample, other = np.divmod(once, max(1, shape[1]))
     share = 1.0 / np.bincount(strokes.stroke, minlength=shape[0])
@@ -323,12 +323,19 @@ def _coverage(strokes: Strokes, others: Strokes) -> csr_matrix:
     return coo_matrix((share[stroke], (stroke, other)), shape).tocsr()
 
 
-def _recovered(pred: Strokes, true: Strokes) -> int:
-    """Strokes recovered one to one, the best fitting first."""
-    cover, covered = _coverage(true, pred).tocoo(), _coverage(pred, true)
-    t, p, forth = cover.row, cover.col, cover.data
+def recovered(
+    pred: Strokes, true: Strokes, within: float = _NEAR, cover: float = _COVER, off: float = _OFF
+) -> int:
+    """Strokes recovered one to one, the best fitting first.
+
+    Args:
+        within: px. cover: share of the true stroke that must be covered. off: share of the traced
+            one that may be away from it.
+    """
+    covers, covered = _coverage(true, pred, within).tocoo(), _coverage(pred, true, within)
+    t, p, forth = covers.row, covers.col, covers.data
     back = np.asarray(covered[p, t]).ravel() if len(p) else forth
-    good = (forth >= _COVER - 1e-9) & (back > 1 - _OFF)
+    good = (forth >= cover - 1e-9) & (back > 1 - off)
     t, p, quality = t[good], p[good], (forth + back)[good]
     return _one_to_one(t, p, np.lexsort((p, t, quality))[::-1])
 

@@ -57,6 +57,7 @@ RUNS: dict[str, NamedRun] = {
         "what is waited for in a review and while adjusting (bpy)",
         function="seconds_of_an_artist",
     ),
+    "rough": NamedRun("rough_to_clean", "the lines of held-out rough pages, --data DRAWINGS"),
     "review": NamedRun("review_worth", "what is flagged, calibration, what 30 decisions find"),
     "redraw": NamedRun("blender_costs", "an idle redraw in a window", function="in_window"),
     "extension": NamedRun("extension", "what the built ZIP weighs and costs to enable"),

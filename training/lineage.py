@@ -36,6 +36,8 @@ def _plain(value: object) -> object:
     others and is shipped with the weights."""
     if isinstance(value, Path):
         return value.name
+    if isinstance(value, list | tuple):
+        return [_plain(one) for one in value]
     return value if isinstance(value, (int, float)) else str(value)
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+import time
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
@@ -32,22 +34,29 @@ class PageBank(Generic[Result]):
         jobs: int = 1,
         prepare: Callable[..., None] | None = None,
         work: tuple[Any, ...] = (),
+        seconds: float = math.inf,
     ) -> list[Result]:
         """The results of so many pages: those in the file, and the rest made and added to it.
 
         make(number) gives the result of a page, or None when it comes to nothing; it and
-        prepare(*work), which every process calls once, are functions of a module.
+        prepare(*work), which every process calls once, are functions of a module. After so many
+        seconds no more are made; what is there is written.
         """
         results, tried = self.load(self.path) if self.path.exists() else ([], 0)
         if tried >= pages:
             return results
+        until = time.monotonic() + seconds
         with ProcessPoolExecutor(jobs, get_context("spawn"), prepare, work) as pool:
-            while tried < pages:
-                numbers = range(tried, min(tried + self.piece, pages))
-                results += [found for found in pool.map(make, numbers) if found is not None]
-                tried = numbers.stop
-                self._write(results, tried)
-                print(f"{self.path.name}: {len(results)} of {tried} pages", flush=True)
+            for found in pool.map(make, range(tried, pages)):
+                tried += 1
+                results += [] if found is None else [found]
+                late = time.monotonic() > until
+                if tried % self.piece == 0 or tried == pages or late:
+                    self._write(results, tried)
+                    print(f"{self.path.name}: {len(results)} of {tried} pages", flush=True)
+                if late:
+                    pool.shutdown(cancel_futures=True)
+                    break
         return results
 
     def _write(self, results: list[Result], tried: int) -> None:

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from benchmarks.metrics import Strokes, crossings, evaluate, read_svg, scaled, summarize
+from benchmarks.metrics import Strokes, crossings, evaluate, read_svg, recovered, scaled, summarize
 from benchmarks.offset import shift
 
 BAR = np.array([[100.0, 200.0], [300.0, 200.0]])
@@ -26,6 +26,15 @@ def test_lines_far_off_the_page_are_refused():
     for far in (1e7, -1e38):
         with pytest.raises(ValueError, match="far off the page"):
             scaled([np.array([[0, 0], [far, 5]])], (100, 100))
+
+
+def test_a_line_counts_as_found_as_near_to_it_as_asked():
+    beside, true = Strokes([BAR + np.array([0, 5]), POST]), Strokes(CROSS)
+    assert recovered(beside, true) == 1
+    assert recovered(beside, true, within=6.0) == 2
+    half = Strokes([LEFT, POST])
+    assert recovered(half, true, cover=0.4) == 2
+    assert recovered(half, true) == 1
 
 
 def test_the_truth_itself_is_perfect():

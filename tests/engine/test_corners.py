@@ -16,7 +16,7 @@ from involute.engine.formats.drawing_json import dumps, read
 from involute.engine.graph.lifts import cut_at_lifts, evidence_size
 from involute.engine.graph.topology import join
 from involute.engine.routing import route
-from involute.engine.routing.lifting import UNSEEN, goes_on, is_lifting, score
+from involute.engine.routing.lifting import UNSEEN, caution, goes_on, score
 from involute.engine.values import LineMaps, PlanarGraph, Scan
 from involute.synthesis.true_graph import graph_from_strokes
 
@@ -134,19 +134,26 @@ def test_every_bias_between_is_between() -> None:
         before = now
 
 
-def test_a_page_is_one_of_lifts_when_its_sharp_corners_look_like_it() -> None:
+def test_the_less_a_page_looks_lifted_at_its_sharp_corners_the_more_a_lift_must_show() -> None:
     sharp, round_off = np.radians(80.0), np.radians(20.0)
     turns, nothing = np.full(8, sharp), np.zeros(8)
-    doubtful, sure = np.full(8, -0.6), np.full(8, -2.0)  # lifted at 0.65 and 0.88
-    assert not is_lifting(doubtful, nothing, turns)
-    assert is_lifting(sure, nothing, turns)
-    # One sure lift among many corners is not how the page is drawn; bends tell nothing of it.
-    assert not is_lifting(np.where(np.arange(8) < 1, sure, doubtful), nothing, turns)
-    assert not is_lifting(sure, nothing, np.full(8, round_off))
+    lifted, joined = np.full(8, -2.0), np.full(8, 3.0)
+    assert caution(lifted, nothing, turns) < 0.1
+    assert caution(joined, nothing, turns) > 3.9
+    # One lift among many corners is not how the page is drawn; bends tell nothing of it.
+    assert caution(np.where(np.arange(8) < 1, lifted, joined), nothing, turns) > 3.5
+    assert caution(lifted, nothing, np.full(8, round_off)) > 3.9
     # What the artist has decided is certain.
-    assert is_lifting(doubtful, np.where(np.arange(8) < 3, -1.0, 0.0), turns)
-    assert not is_lifting(sure, np.where(np.arange(8) < 7, 1.0, 0.0), turns)
-    assert not is_lifting(sure[:0], nothing[:0], turns[:0])
+    assert caution(joined, np.where(np.arange(8) < 7, -1.0, 0.0), turns) < 0.1
+    assert caution(lifted, np.where(np.arange(8) < 7, 1.0, 0.0), turns) > 3.5
+    assert caution(lifted[:0], nothing[:0], turns[:0]) > 3.9
+
+
+def test_noise_at_a_corner_does_not_change_the_habit_of_its_page() -> None:
+    turns, nothing = np.full(12, np.radians(80.0)), np.zeros(12)
+    levels = [caution(np.full(12, at), nothing, turns) for at in np.linspace(-3, 3, 301)]
+    assert (np.diff(levels) >= 0).all()
+    assert np.diff(levels).max() < 0.11
 
 
 def test_where_nothing_was_seen_the_habit_of_the_page_changes_nothing() -> None:

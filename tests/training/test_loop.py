@@ -89,6 +89,9 @@ def test_a_bank_of_pages_goes_on_where_it_stopped(tmp_path: Path) -> None:
     assert bank.filled(3, _square) == [0, 1]
     assert bank.filled(8, _square) == [0, 1, 9, 16, 36, 49]
     assert [path.name for path in tmp_path.iterdir()] == ["bank.npz"]
+    # When its time is over it writes what it has, and stops.
+    assert bank.filled(100, _square, seconds=0.0) == [0, 1, 9, 16, 36, 49]
+    assert load(tmp_path / "bank.npz")[1] == 9
 
 
 def test_weights_say_which_run_they_are_from(tmp_path: Path) -> None:

@@ -22,14 +22,17 @@ from involute.synthesis.composed_pages import Library, net
 from involute.synthesis.true_graph import graph_from_strokes
 from involute.training.routing.augment import Page, _tips, augmented, contracted, random_fixed
 from involute.training.routing.export_routing import calibrate, export, load
-from involute.training.routing.graph_bank import Bank, encoded, joined, true_page
+from involute.training.routing.graph_bank import Bank, encoded, halved, joined, true_page
+from involute.training.routing.hand_drawn import hand_drawn, in_window
 from involute.training.routing.judge import judge
 from involute.training.routing.labels import labelled, unowned
 from involute.training.routing.likelihood import exact, sinkhorn
+from involute.training.routing.page_file import load as load_pages
+from involute.training.routing.page_file import save
 from involute.training.routing.restore_transformer import restored
 from involute.training.routing.set_transformer import RoutingNet
-from involute.training.routing.traced import graph_of, look_ideal, look_scan, save
-from involute.training.routing.traced import load as load_traced
+from involute.training.routing.supply import Supply, on_device, together
+from involute.training.routing.traced import graph_of, look_ideal, look_ink, look_scan
 from involute.training.routing.train_routing import run, train
 from involute.training.routing.widen import widened
 
@@ -155,11 +158,50 @@ def test_a_traced_page_is_matched_to_its_strokes(tmp_path: Path) -> None:
     degrees = sorted(page.graph.degrees[page.graph.junctions].tolist())
     assert degrees == [3, 4]
     assert _continuations(page) == 3
-    save(tmp_path / "pages.npz", [page, page])
-    again = load_traced(tmp_path / "pages.npz")
-    assert len(again) == 2
-    np.testing.assert_array_equal(again[1].partner, page.partner)
-    np.testing.assert_array_equal(again[1].graph.points, page.graph.points)
+
+
+def test_a_file_of_pages_keeps_what_routing_sees(tmp_path: Path) -> None:
+    ideal = _traced(CROSS)
+    maps, scan = look_ink(np.random.default_rng(3), CROSS, Settings(provider="classical"))
+    inked = labelled(graph_of(maps, scan, Settings()), CROSS)
+    pages = [ideal, inked, ideal]
+    save(tmp_path / "pages.npz", pages)
+    again = load_pages(tmp_path / "pages.npz")
+    assert len(again) == 3
+    for page, read in zip(pages, again, strict=True):
+        np.testing.assert_array_equal(read.partner, page.partner)
+        np.testing.assert_array_equal(read.graph.ends, page.graph.ends)
+        np.testing.assert_array_equal(
+            read.stroke[read.graph.offsets[:-1]], page.stroke[page.graph.offsets[:-1]]
+        )
+        before, after = encoded(page, {}, 4), encoded(read, {}, 4)
+        np.testing.assert_allclose(after.tokens, before.tokens, atol=0.15)
+        assert np.abs(after.tokens - before.tokens).mean() < 0.01
+        assert np.abs(after.pairs - before.pairs).mean() < 0.01
+    assert again[0].graph.widths is None
+    assert again[1].graph.widths is not None
+
+
+@given(seeds)
+@settings(max_examples=20, deadline=None)
+def test_a_window_holds_the_pieces_of_strokes_that_are_in_it(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    line = _line((0, 0), (1000, 0), (1000, 1000))
+    pieces = in_window(rng, [line], 300.0)
+    size = np.max([piece.max(0) for piece in pieces], 0)
+    assert (size <= 300 + 12 + 1e-6).all()
+    length = sum(np.hypot(*np.diff(piece, axis=0).T).sum() for piece in pieces)
+    assert 150 <= length <= 602
+
+
+def test_a_hand_draws_within_its_window(drawings: Path) -> None:
+    library = Library.load(drawings, held_out=False)
+    rng = np.random.default_rng(1)
+    for _ in range(8):
+        strokes = hand_drawn(rng, library)
+        assert strokes
+        assert min(line.min() for line in strokes) >= 11.99
+        assert max(line.max() for line in strokes) <= 660
 
 
 def test_a_scanned_page_is_matched_to_its_strokes() -> None:
@@ -197,6 +239,19 @@ def test_strokes_run_past_what_nobody_drew() -> None:
     halves = np.concatenate([2 * false, 2 * false + 1])
     np.testing.assert_array_equal(page.partner[halves], halves)
     assert unowned(page) == pytest.approx(17 / 337, abs=0.01)
+
+
+def test_batches_that_are_kept_are_taken_together() -> None:
+    torch.manual_seed(5)
+    model = RoutingNet(width=16, edge=8, layers=2).eval()
+    parts = [encoded(true_page(net(np.random.default_rng(k))), {}, 6) for k in range(3)]
+    on_cpu = [on_device(halved(part), "cpu") for part in parts]
+    scores = run(model, together(on_cpu), "cpu")
+    apart = torch.cat([run(model, part, "cpu") for part in on_cpu])
+    torch.testing.assert_close(scores, apart, atol=1e-5, rtol=1e-4)
+    for kept in (0, 2):
+        supply = iter(Supply(iter(parts), "cpu", together=2, kept=kept))
+        assert next(supply).mask.shape[1] == 6
 
 
 def test_strokes_taper_only_where_they_end() -> None:
@@ -246,7 +301,7 @@ def test_what_the_engine_runs_is_what_was_trained(drawings: Path, tmp_path: Path
     arguments = Namespace(
         data=drawings, out=tmp_path, steps=3, junctions=40, rate=1e-3, loss="exact", width=64,
         every=2, pages=3, minutes=10.0, seed=1, device="cpu", traced=[], traced_held_out=None,
-        traced_share=0.0, start=None, dropout=0.1, workers=0,
+        traced_share=0.0, start=None, dropout=0.1, workers=0, together=1, kept=0,
     )  # fmt: skip
     train(arguments)
     arguments.steps = 4

@@ -146,7 +146,7 @@ def rough_page(
     else:
         ink = _drawn_once(rng, lines, spacing, size)
     spread, strokes = (hand.spread, hand.strokes) if hand else (0.0, 1.0)
-    return _traced(_scanned(rng, ink), lines, spread, strokes)
+    return _traced(on_sheet(rng, ink), lines, spread, strokes)
 
 
 def hatched(rng: np.random.Generator) -> RoughPage:
@@ -187,7 +187,7 @@ def _drawn_once(rng: np.random.Generator, lines: list[Array], spacing: float, si
     return draw(rng, sample(lines, size), medium, pen, size)[0]
 
 
-def _scanned(rng: np.random.Generator, ink: Array) -> Array:
+def on_sheet(rng: np.random.Generator, ink: Array) -> Array:
     """(H, W) uint8: the ink on a sheet, scanned."""
     gray = 1 - ink * rng.uniform(0.9, 1)
     if rng.random() < 0.6:

@@ -12,6 +12,7 @@ import argparse
 import json
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import torch
@@ -22,6 +23,7 @@ from involute.synthesis.composed_pages import Library
 from .. import digests
 from .graph_bank import Batch
 from .likelihood import exact
+from .restore_transformer import restored
 from .set_transformer import RoutingNet
 from .train_routing import run, validation
 
@@ -31,30 +33,44 @@ _DEGREES = 4  # 3, 4, 5, and 6 or more
 def main(argv: Sequence[str] | None = None) -> None:
     """The command line."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("checkpoints", type=Path, nargs="+")
+    parser.add_argument("checkpoints", type=Path, nargs="+", help="or routing.onnx")
     parser.add_argument("--data", type=Path, required=True, help="folder of SOURCE.npz drawings")
     parser.add_argument("--traced", type=Path, help="held-out pages by training.routing.traced")
     parser.add_argument("--out", type=Path, default=shipped.FOLDER)
+    parser.add_argument(
+        "--joining", type=float, default=0.0, help="added to the log-odds of joining, once fitted"
+    )
     args = parser.parse_args(argv)
     net = load(*args.checkpoints)
     library = Library.load(args.data, held_out=True)
     held_out = validation(library, args.traced, pages=80, seed=11)
     calibration = calibrate(net, list(held_out.values()))
+    calibration["shift"] = [round(shift + args.joining, 4) for shift in calibration["shift"]]
     args.out.mkdir(parents=True, exist_ok=True)
     (args.out / "routing.json").write_text(json.dumps(calibration, indent=1) + "\n")
     export(net, args.out / "routing.onnx")
-    runs = [checkpoint.parent for checkpoint in dict.fromkeys(args.checkpoints)]
+    trained = [path for path in args.checkpoints if path.suffix != ".onnx"]
+    runs = [checkpoint.parent for checkpoint in dict.fromkeys(trained)]
     for name in ("routing.json", "routing.onnx"):
         digests.note(args.out / name, *runs)
 
 
 def load(*checkpoints: Path) -> RoutingNet:
     """The network of a checkpoint (or the mean of several), ready to run."""
-    saved = [torch.load(checkpoint, map_location="cpu") for checkpoint in checkpoints]
-    net = RoutingNet(**saved[0]["config"])
-    weights = [part["mean"] for part in saved]
+    found = [_saved(checkpoint) for checkpoint in checkpoints]
+    net = RoutingNet(**found[0][0])
+    weights = [state for _, state in found]
     net.load_state_dict({k: sum(w[k] for w in weights) / len(weights) for k in weights[0]})
     return net.eval()
+
+
+def _saved(path: Path) -> tuple[dict[str, Any], dict[str, torch.Tensor]]:
+    """Sizes and weights of checkpoint.pt or of routing.onnx."""
+    if path.suffix == ".onnx":
+        net = restored(path)
+        return net.config, net.state_dict()
+    saved = torch.load(path, map_location="cpu")
+    return saved["config"], saved["mean"]
 
 
 @torch.no_grad()

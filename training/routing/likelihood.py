@@ -7,6 +7,8 @@ symmetric Gumbel noise, Sinkhorn iterations, cross-entropy and the Frobenius dis
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 import torch
 from involute.engine.involution import pair_matrix
@@ -27,7 +29,7 @@ def exact(scores: Tensor, mask: Tensor, truth: Tensor) -> Tensor:
         rows = torch.nonzero(degrees == degree)[:, 0]
         if len(rows):
             a, b = np.triu_indices(degree, 1)
-            ways = torch.from_numpy(pair_matrix(degree)).to(scores.device)
+            ways = _ways(degree, str(scores.device))
             total = scores[rows][:, a, b] @ ways.T
             real = truth[rows][:, a, b]
             kept = real @ ways.T - (1 - real) @ ways.T * degree
@@ -35,6 +37,11 @@ def exact(scores: Tensor, mask: Tensor, truth: Tensor) -> Tensor:
             best = torch.logsumexp(total.masked_fill(~right, _BLOCKED), dim=1)
             loss = loss.index_add(0, rows, torch.logsumexp(total, dim=1) - best)
     return loss
+
+
+@cache
+def _ways(degree: int, device: str) -> Tensor:
+    return torch.from_numpy(pair_matrix(degree)).to(device)
 
 
 def sinkhorn(scores: Tensor, mask: Tensor, truth: Tensor, rounds: int = 20) -> Tensor:

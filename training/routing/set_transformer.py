@@ -83,10 +83,10 @@ def _page_mean(x: Tensor, mask: Tensor, page: Tensor | None) -> Tensor:
     total, count = (x * mask.unsqueeze(-1)).sum(1), mask.sum(1, keepdim=True)
     if page is None:
         return (total.sum(0, keepdim=True) / count.sum(0, keepdim=True)).unsqueeze(1)
-    pages = int(page.max()) + 1
-    total = total.new_zeros(pages, total.shape[1]).index_add(0, page, total)
-    count = count.new_zeros(pages, 1).index_add(0, page, count)
-    return (total / count)[page].unsqueeze(1)
+    # As many pages as junctions at most: to ask a GPU how many there are would make it wait.
+    total = torch.zeros_like(total).index_add(0, page, total)
+    count = torch.zeros_like(count).index_add(0, page, count)
+    return (total / count.clamp(min=1))[page].unsqueeze(1)
 
 
 class _Layer(nn.Module):

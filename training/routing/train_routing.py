@@ -19,10 +19,13 @@ from . import likelihood
 from .augment import augmented
 from .graph_bank import Batch, Batches, encoded, joined, true_page
 from .judge import Verdict, judge
+from .page_file import load
 from .restore_transformer import restored
 from .set_transformer import RoutingNet
-from .traced import load
+from .supply import Supply, on_device
 from .widen import widened
+
+_WINDOWS = 3  # traced pages for each of the others: they are windows, with a third of the junctions
 
 
 def main(argv: Sequence[str] | None = None) -> None:
@@ -37,6 +40,8 @@ def main(argv: Sequence[str] | None = None) -> None:
     parser.add_argument("--width", type=int, default=64, help="may be twice that of --start")
     parser.add_argument("--dropout", type=float, default=0.0)
     parser.add_argument("--workers", type=int, default=0, help="processes that make the batches")
+    parser.add_argument("--together", type=int, default=1, help="batches that make a step's")
+    parser.add_argument("--kept", type=int, default=0, help="batches kept to be taken again")
     parser.add_argument("--every", type=int, default=500, help="steps between evaluations")
     parser.add_argument("--pages", type=int, default=40, help="pages of an evaluation")
     parser.add_argument("--minutes", type=float, default=1e9, help="stop after so long")
@@ -65,18 +70,17 @@ def train(args: argparse.Namespace) -> None:
     loss_of = getattr(likelihood, args.loss)
 
     def loss(net: RoutingNet, batch: Batch) -> dict[str, torch.Tensor]:
-        mask, truth, asked = (
-            torch.from_numpy(a).to(args.device) for a in (batch.mask, batch.truth, batch.asked)
-        )
-        lost = loss_of(run(net, batch, args.device), mask, truth) * asked
-        return {"total": lost.sum() / asked.sum().clamp(min=1)}
+        batch = on_device(batch, args.device)
+        lost = loss_of(run(net, batch, args.device), batch.mask, batch.truth) * batch.asked
+        return {"total": lost.sum() / batch.asked.sum().clamp(min=1)}
 
     def judged(mean: RoutingNet) -> dict[str, dict[str, float]]:
         return {
             name: evaluate(mean, part, args.device).summary() for name, part in held_out.items()
         }
 
-    training.run(stream.loader(args.workers), loss, judged)
+    loader = stream.loader(args.workers)
+    training.run(Supply(loader, args.device, args.together, args.kept, seed), loss, judged)
 
 
 def _first(args: argparse.Namespace) -> RoutingNet:
@@ -98,8 +102,9 @@ def _first(args: argparse.Namespace) -> RoutingNet:
 
 def run(net: RoutingNet, batch: Batch, device: str) -> torch.Tensor:
     """(J, D, D) scores of a batch."""
-    arrays = (batch.tokens, batch.pairs, batch.sibling.astype(np.int64), batch.mask, batch.page)
-    return net(*(torch.from_numpy(a).to(device) for a in arrays))
+    given = on_device(batch, device)
+    features = given.tokens.float(), given.pairs.float()
+    return net(*features, given.sibling.long(), given.mask, given.page)
 
 
 @torch.no_grad()
@@ -124,7 +129,7 @@ def validation(
             rough.append(encoded(augmented(rng, page), {}, 8))
     parts = {"true": drawn, "rough": rough}
     if traced:
-        parts["traced"] = [encoded(page, {}, 8) for page in load(traced)[:pages]]
+        parts["traced"] = [encoded(page, {}, 8) for page in load(traced)[: _WINDOWS * pages]]
     return {name: joined([b for b in batches if len(b.mask)]) for name, batches in parts.items()}
 
 
