@@ -323,10 +323,11 @@ def test_weights_to_go_on_from_are_kept_with_their_norms(tmp_path):
         torch.testing.assert_close(
             restored(tmp_path / "start.pt")(ink), net(ink), atol=2e-2, rtol=0
         )
-    start = Path(training_page.__file__).with_name("start.pt")
-    state = torch.load(start, "cpu")["mean"]
-    assert any("running_mean" in name for name in state)
-    assert with_all_heads(restored(start)).head.weight.shape[1] == len(CHANNELS) - 1
+    for name in ("start.pt", "start_rough.pt"):
+        start = Path(training_page.__file__).with_name(name)
+        state = torch.load(start, "cpu")["mean"]
+        assert any("running_mean" in name for name in state)
+        assert with_all_heads(restored(start)).head.weight.shape[1] == len(CHANNELS) - 1
 
 
 def test_training_goes_on_from_weights_with_fewer_heads(drawings, tmp_path):
