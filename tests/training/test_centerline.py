@@ -305,6 +305,7 @@ def test_a_network_of_any_depth_is_read_back(tmp_path, counts):
     torch.manual_seed(2)
     net = _seasoned(CenterlineNet((4, 8, 12), counts))
     export(net, tmp_path / "net.onnx")
+    assert worst_difference(net, tmp_path / "net.onnx") < 1e-3
     keep(net, tmp_path / "net.pt")
     ink = torch.rand(1, 1, 3 * STRIDE, 2 * STRIDE)
     for name in ("net.onnx", "net.pt"):
@@ -312,6 +313,13 @@ def test_a_network_of_any_depth_is_read_back(tmp_path, counts):
         assert [len(level) for level in again.encode] == list(counts or (1, 2, 2))
         with torch.inference_mode():
             torch.testing.assert_close(again(ink), net(ink), atol=2e-2, rtol=0)
+
+
+def test_a_network_deeper_than_the_engine_pads_for_is_checked_all_the_same(tmp_path):
+    torch.manual_seed(2)
+    net = _seasoned(CenterlineNet((4, 4, 4, 4, 4)))
+    export(net, tmp_path / "net.onnx")
+    assert worst_difference(net, tmp_path / "net.onnx") < 1e-3
 
 
 def test_weights_to_go_on_from_are_kept_with_their_norms(tmp_path):

@@ -109,7 +109,8 @@ def worst_difference(net: CenterlineNet, weights: Path) -> float:
         ValueError: it is more than TOLERANCE.
     """
     rng = np.random.default_rng(1)
-    ink = np.maximum(0, rng.normal(0, 0.02, (11 * STRIDE, 9 * STRIDE))).astype(np.float32)
+    stride = 2 ** len(net.encode)
+    ink = np.maximum(0, rng.normal(0, 0.02, (11 * stride, 9 * stride))).astype(np.float32)
     ink[rng.integers(0, len(ink), 6)] = 1.0
     seen = load_both(weights, "cpu")(ink)
     with torch.inference_mode():

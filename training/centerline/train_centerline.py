@@ -49,7 +49,7 @@ def main(arguments: list[str] | None = None) -> None:
     add("--loss", default="bce_dice", choices=list(CENTERLINE_LOSSES))
     add("--widths", type=int, nargs="+", default=list(WIDTHS))
     add("--counts", type=int, nargs="+", help="convolutions of each level on the way down")
-    add("--compile", action="store_true", help="by torch.compile: a GPU then needs half the time")
+    add("--compile", action="store_true", help="by torch.compile: 12 %% less a step on an H200")
     add("--start-from", type=Path, help="checkpoint or ONNX file that a new run begins with")
     add("--every", type=int, default=500, help="steps between validations")
     train(parser.parse_args(arguments))
