@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from .errors import InvoluteError
+from .rough.asking import carried_answers
 from .values import Array, Junction, Pair, PlanarGraph
 
 if TYPE_CHECKING:
@@ -31,6 +32,19 @@ class Carried(NamedTuple):
 
 def carried(old: Drawing, new: Drawing) -> Carried:
     """The new drawing with every decision of the old one that it has a place for."""
+    lost = 0
+    if old.pencil and len(old.pencil.answers.one):
+        lost = len(old.pencil.answers.one)
+        if new.pencil:
+            scales = old.scale, new.scale
+            answers, lost = carried_answers(old.pencil, new.pencil, scales, new.size)
+            new = new.answered(answers) if len(answers.one) else new
+    made = decided_again(old, new)
+    return Carried(made.drawing, made.lost + lost)
+
+
+def decided_again(old: Drawing, new: Drawing) -> Carried:
+    """The same for junctions and corners alone, what was cut and what was joined."""
     if _same_lines(old, new):
         steps = old.edits.steps if old.edits else ()
         again = new.with_edits(steps).with_scores(old.routing.pair_score)
