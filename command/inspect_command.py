@@ -10,7 +10,7 @@ from ..engine import runtimes
 from ..engine.errors import InvoluteError
 from ..engine.formats import format_of, load
 from ..engine.settings import Settings
-from ..engine.values import Junction
+from ..engine.values import Bundle, Junction
 
 if TYPE_CHECKING:
     from ..engine.drawing import Drawing
@@ -61,7 +61,7 @@ def _about_drawing(drawing: Drawing) -> Iterator[str]:
     yield ""
     yield " junction        x        y  degree  doubt  joined (next best)"
     doubtful = set(drawing.doubtful)
-    both = [*drawing.junctions, *drawing.bundles]
+    both: list[Junction | Bundle] = [*drawing.junctions, *drawing.bundles]
     order = [*drawing.doubtful, *(one.index for one in both if one.index not in doubtful)]
     for junction in map(drawing.asked, order):
         said = _pairs if isinstance(junction, Junction) else _lines

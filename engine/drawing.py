@@ -17,7 +17,7 @@ import numpy as np
 from .errors import InvoluteError
 from .fidelity import Fidelity, fidelity, warnings
 from .graph.editing import Edits, Step, edited, place_on
-from .rough.asking import cleaned_again, questions, with_answers
+from .rough.asking import cleaned_again, parts_of, questions, with_answers
 from .routing import around, checked_pairs, place_of_pairs, rescored, route, taught
 from .routing.cost import costs
 from .routing.lifting import goes_on
@@ -229,6 +229,11 @@ class Drawing:
         if self.pencil is None:
             return ()
         return questions(self.pencil, self.scale, self.size, len(self.graph.places))
+
+    def parts_of(self, bundle: Bundle) -> tuple[Array, Array]:
+        """(N, 2) px: the part of either pencil stroke that a question is about."""
+        assert self.pencil is not None, "a clean drawing has no bundles"
+        return parts_of(self.pencil, bundle, self.scale, self.size)
 
     def asked(self, number: int) -> Junction | Bundle:
         """One junction, corner or bundle by its number."""

@@ -24,7 +24,9 @@ def questions(
     if pencil.beside is None:
         return ()
     asked = answered(recalled(pencil.beside, scale, size), pencil.answers, scale)
-    return bundles_of(asked, pencil.answers, scale, first)
+    says = np.zeros(len(pencil.strokes), bool)
+    says[pencil.said[:, 0]] = True
+    return bundles_of(asked, pencil.answers, says, scale, first)
 
 
 def cleaned_again(

@@ -41,16 +41,19 @@ class Runs:
     of_rung: Array
 
 
-def bundles_of(asked: Answered, answers: Answers, scale: float, first: int) -> tuple[Bundle, ...]:
+def bundles_of(
+    asked: Answered, answers: Answers, says: Array, scale: float, first: int
+) -> tuple[Bundle, ...]:
     """All that can be asked, in the order of the strokes.
 
     Args:
+        says: (S,) bool, pencil strokes that are part of a line; of two others nothing is asked.
         scale: input pixels per working pixel. first: number of the first of them.
     """
     runs = runs_of(asked)
     answer = answers_at(answers, runs.strokes, scale * runs.span)
     sure = np.where(runs.in_force, 1 - runs.probability, runs.probability) < _SURE
-    open_ones = ~runs.tied & ~runs.settled & ~sure
+    open_ones = ~runs.tied & ~runs.settled & ~sure & says[runs.strokes].any(1)
     found: list[Bundle] = []
     for k in np.flatnonzero(open_ones | (answer >= 0)).tolist():
         a, b = runs.strokes[k].tolist()

@@ -415,6 +415,12 @@ TEXTS = {
     "Page of {count}": "Page sur {count}",
     "{some} of {all}": "{some} sur {all}",
     "{count} lines": "{count} lignes",
+    "Bundle": "Faisceau",
+    "One line": "Une ligne",
+    "Two lines": "Deux lignes",
+    "Pencil strokes beside each other: one line or two": (
+        "Traits de crayon côte à côte : une ligne ou deux"
+    ),
     "No junction passes the filters": "Aucune jonction ne passe les filtres",
     "No junction passes the filters.": "Aucune jonction ne passe les filtres.",
     "Previous": "Précédente",
@@ -784,6 +790,12 @@ TEXTS = {
     ),
     "Taken for a rough drawing: its {0} pencil strokes say {1} lines.": (
         "Pris pour un brouillon : ses {0} traits de crayon disent {1} lignes."
+    ),
+    "The pencil strokes of a bundle are one line or two.": (
+        "Les traits de crayon d’un faisceau font une ligne ou deux."
+    ),
+    "This drawing does not know what its lines were made of; trace the picture again.": (
+        "Ce dessin ne sait pas de quoi ses lignes sont faites ; vectorisez l’image à nouveau."
     ),
     "This stroke ends there already.": "Ce trait s'arrête déjà là.",
     "To join, two different ends of strokes are needed.": (

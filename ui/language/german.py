@@ -432,6 +432,12 @@ TEXTS = {
     "Page of {count}": "Seite von {count}",
     "{some} of {all}": "{some} von {all}",
     "{count} lines": "{count} Linien",
+    "Bundle": "Bündel",
+    "One line": "Eine Linie",
+    "Two lines": "Zwei Linien",
+    "Pencil strokes beside each other: one line or two": (
+        "Bleistiftstriche nebeneinander: eine Linie oder zwei"
+    ),
     "No junction passes the filters": "Keine Kreuzung passt zu den Filtern",
     "No junction passes the filters.": "Keine Kreuzung passt zu den Filtern.",
     "Previous": "Vorige",
@@ -822,6 +828,13 @@ TEXTS = {
     ),
     "Taken for a rough drawing: its {0} pencil strokes say {1} lines.": (
         "Für eine Rohzeichnung gehalten: ihre {0} Bleistiftstriche sagen {1} Linien."
+    ),
+    "The pencil strokes of a bundle are one line or two.": (
+        "Die Bleistiftstriche eines Bündels sind eine Linie oder zwei."
+    ),
+    "This drawing does not know what its lines were made of; trace the picture again.": (
+        "Diese Zeichnung weiß nicht, woraus ihre Linien gemacht sind; "
+        "ziehe das Bild noch einmal nach."
     ),
     "This stroke ends there already.": "Dieser Strich endet dort schon.",
     "To join, two different ends of strokes are needed.": (

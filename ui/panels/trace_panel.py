@@ -144,7 +144,7 @@ class INVOLUTE_PT_summary(Sidebar, bpy.types.Panel):
         )
         found = label(
             "{junctions:,} junctions, {doubtful:,} doubtful",
-            junctions=len(shown.table),
+            junctions=shown.table.count,
             doubtful=len(drawing.doubtful),
         )
         for text in (drawn, found):
