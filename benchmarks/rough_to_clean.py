@@ -20,7 +20,7 @@ import cv2
 import numpy as np
 from involute.engine import Settings, vectorize
 from involute.synthesis.composed_pages import Library
-from involute.synthesis.line_art import resample
+from involute.synthesis.line_art import pieces, resample
 from involute.synthesis.rough_drawings import rough_drawing
 from involute.training.rough.rough_pages import on_sheet
 
@@ -96,8 +96,7 @@ def _on_page(line: Array, side: int) -> list[Array]:
     """What of a line lies on the page."""
     dense = resample(line.astype(np.float32), 2.0)
     inside = ((dense > 0) & (dense < side)).all(1)
-    runs = np.split(np.arange(len(dense)), np.flatnonzero(np.diff(inside)) + 1)
-    return [dense[run] for run in runs if inside[run[0]] and len(run) > 3]
+    return [piece for piece in pieces(dense, inside) if len(piece) > 3]
 
 
 if __name__ == "__main__":
