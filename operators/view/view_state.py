@@ -149,7 +149,7 @@ class Shown:
 
     @property
     def world_positions(self) -> np.ndarray:
-        """(J, 3) where the junctions are in the scene."""
+        """(J, 3) where the rows of the table are in the scene; NaN where that has no place."""
         places = self.pixel_map.to_object(self.table.positions)
         matrix = np.array(self.object.matrix_world)
         return places @ matrix[:3, :3].T + matrix[:3, 3]
