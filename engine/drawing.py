@@ -311,6 +311,12 @@ class Drawing:
         order = np.argsort(-costs, kind="stable")
         return tuple(order[costs[order] >= least].tolist())
 
+    @property
+    def doubtful_bundles(self) -> tuple[int, ...]:
+        """Those of the doubtful ones that are bundles."""
+        first = len(self.graph.places)
+        return tuple(number for number in self.doubtful if number >= first)
+
     def reroute(self, junction: int, pairs: Iterable[Pair]) -> Drawing:
         """Join exactly these half-branches at a junction or corner, end the others there, and lock
         it; or say that the strokes of a bundle are one line, as a pair, or two.

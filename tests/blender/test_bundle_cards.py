@@ -224,3 +224,16 @@ def test_cards_show_one_line_and_two(bpy, part, traced):
     apart = geometry.sketch(drawing, asked, ())
     assert abs(np.median(apart[0].points[:, 0]) - np.median(apart[1].points[:, 0])) > 0.15
     assert geometry.labels(drawing, asked) == []
+
+
+def test_rings_of_bundles_are_small_until_they_are_worth_a_look(bpy, part, traced):
+    geometry, colors = part("ui.overlay.overlay_geometry"), part("ui.overlay.colors")
+    table = shown_in(bpy, part).table
+    made = geometry.rings(table, 4.0, (colors.SURE, colors.DOUBTFUL, colors.LOCKED))
+    seen = np.flatnonzero(np.isfinite(table.positions[:, 0]))
+    points = made.points.reshape(len(seen), -1, 2)
+    radii = np.linalg.norm(points - table.positions[seen, None], axis=2).max(1)
+    minor = (table.degree[seen] == 2) & ~table.doubtful[seen] & ~table.locked[seen]
+    assert minor.any()
+    assert (radii[minor] < 2).all()
+    assert (radii[~minor] > 3.9).all()

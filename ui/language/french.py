@@ -68,6 +68,16 @@ TEXTS = {
     "{strokes:,} strokes, {solids:,} solids, {seconds:.1f} s": (
         "{strokes:,} traits, {solids:,} aplats, {seconds:.1f} s"
     ),
+    "{junctions:,} junctions, {bundles:,} bundles, {doubtful:,} doubtful": (
+        "{junctions:,} jonctions, {bundles:,} faisceaux, {doubtful:,} douteux"
+    ),
+    (
+        "{strokes} strokes, {junctions} junctions and {bundles} bundles "
+        "({doubtful} doubtful), {seconds:.1f} s"
+    ): (
+        "{strokes} traits, {junctions} jonctions et {bundles} faisceaux "
+        "({doubtful} douteux), {seconds:.1f} s"
+    ),
     "{junctions:,} junctions, {doubtful:,} doubtful": (
         "{junctions:,} jonctions, {doubtful:,} douteuses"
     ),

@@ -72,6 +72,16 @@ TEXTS = {
     "{strokes:,} strokes, {solids:,} solids, {seconds:.1f} s": (
         "{strokes:,} Striche, {solids:,} Flächen, {seconds:.1f} s"
     ),
+    "{junctions:,} junctions, {bundles:,} bundles, {doubtful:,} doubtful": (
+        "{junctions:,} Kreuzungen, {bundles:,} Bündel, {doubtful:,} zweifelhaft"
+    ),
+    (
+        "{strokes} strokes, {junctions} junctions and {bundles} bundles "
+        "({doubtful} doubtful), {seconds:.1f} s"
+    ): (
+        "{strokes} Striche, {junctions} Kreuzungen und {bundles} Bündel "
+        "({doubtful} zweifelhaft), {seconds:.1f} s"
+    ),
     "{junctions:,} junctions, {doubtful:,} doubtful": (
         "{junctions:,} Kreuzungen, {doubtful:,} zweifelhaft"
     ),

@@ -68,6 +68,16 @@ TEXTS = {
     "{strokes:,} strokes, {solids:,} solids, {seconds:.1f} s": (
         "ストローク {strokes:,}、ベタ {solids:,}、{seconds:.1f} 秒"
     ),
+    "{junctions:,} junctions, {bundles:,} bundles, {doubtful:,} doubtful": (
+        "交点 {junctions:,}、束 {bundles:,}、疑わしいもの {doubtful:,}"
+    ),
+    (
+        "{strokes} strokes, {junctions} junctions and {bundles} bundles "
+        "({doubtful} doubtful), {seconds:.1f} s"
+    ): (
+        "ストローク {strokes}、交点 {junctions}、束 {bundles}"
+        "（疑わしいもの {doubtful}）、{seconds:.1f} 秒"
+    ),
     "{junctions:,} junctions, {doubtful:,} doubtful": (
         "交点 {junctions:,}、疑わしい交点 {doubtful:,}"
     ),
