@@ -17,6 +17,7 @@ import numpy as np
 from .errors import InvoluteError
 from .fidelity import Fidelity, fidelity, warnings
 from .graph.editing import Edits, Step, edited, place_on
+from .ink.known_inks import with_known_inks
 from .rough.asking import cleaned_again, parts_of, questions, with_answers
 from .routing import around, checked_pairs, place_of_pairs, rescored, route, taught
 from .routing.cost import costs
@@ -154,12 +155,13 @@ class Drawing:
 
     def answered(self, answers: Answers) -> Drawing:
         """The lines that the pencil strokes say, one or two as the artist answers; all other
-        decisions are made again.
+        decisions are made again, and lines keep number, direction and ink as in a sequence.
 
         Raises:
             InvoluteError: the drawing is a clean one, or it does not know what it was made of.
         """
         from .decisions import decided_again
+        from .sequence.follow import follow
 
         pencil = self.pencil
         if pencil is None or pencil.beside is None:
@@ -167,12 +169,13 @@ class Drawing:
         made = cleaned_again(pencil.beside, answers, self.settings, self.scale, self.size)
         page = Scan(np.zeros((1, 1), np.float32), None, self.scale, self.size, 1.0)
         lines = Drawing.from_routing(made.graph, made.routing, page, self.settings)
+        strokes = with_known_inks(lines.strokes, list(dict.fromkeys(s.color for s in self.strokes)))
         old, new = (_note(len(pencil.strokes), len(d.strokes)) for d in (self, lines))
         cleaned = replace(
             self,
             graph=lines.graph,
             routing=lines.routing,
-            strokes=lines.strokes,
+            strokes=follow(self.strokes, strokes) if strokes else (),
             page=lines.page,
             edits=None,
             region_colors=None,

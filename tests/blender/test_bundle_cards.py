@@ -237,3 +237,29 @@ def test_rings_of_bundles_are_small_until_they_are_worth_a_look(bpy, part, trace
     assert minor.any()
     assert (radii[minor] < 2).all()
     assert (radii[~minor] > 3.9).all()
+
+
+def test_frames_of_a_sequence_are_answered_apart(bpy, part, tmp_path):
+    part("engine.scan")  # brings OpenCV
+    import cv2
+
+    for number in (1, 2):
+        page = np.full((240, 360), 255, np.uint8)
+        for x, y, right, low in (*ROUGH, *PAIR):
+            cv2.line(page, (x + number, y), (right + number, low), 0, 2, cv2.LINE_AA)
+        cv2.imwrite(str(tmp_path / f"run_{number:03}.png"), page)
+    options = {"provider": "classical", "solids": False, "drawing": "rough", "jobs": 1}
+    assert bpy.ops.involute.trace_sequence(directory=str(tmp_path), **options) == {"FINISHED"}
+    state, data = part("operators.grease_pencil.state"), bpy.context.active_object.data
+    before = state.doubtful_frames(data)
+    bpy.context.scene.frame_set(2)
+    was = bool(the_pair(bpy, part).pairs)
+    answer(bpy, part, not was)
+    assert the_pair(bpy, part).locked
+    assert bool(the_pair(bpy, part).pairs) != was
+    after = state.doubtful_frames(data)
+    assert after.keys() == before.keys()
+    assert after[1] == before[1]
+    bpy.context.scene.frame_set(1)
+    assert not the_pair(bpy, part).locked
+    assert bool(the_pair(bpy, part).pairs) == was

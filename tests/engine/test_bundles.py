@@ -11,6 +11,7 @@ from involute.command.cli import main
 from involute.engine import Drawing, InvoluteError, Settings, vectorize
 from involute.engine.decisions import carried
 from involute.engine.formats import drawing_json
+from involute.engine.sequence.follow import reverse
 from involute.engine.soundness import check_drawing
 
 from .test_damaged_drawings import changed, put
@@ -85,6 +86,18 @@ def test_the_rest_of_the_page_stays(rough):
     assert far
     for points in far:
         assert any(np.array_equal(points, s.points) for s in one.strokes)
+
+
+def test_lines_of_a_sequence_keep_direction_and_ink(rough):
+    """As its frame before had them, strokes run the other way, and their ink is another shade."""
+    turned = tuple(replace(reverse(s), color=(9, 9, 9)) for s in rough.strokes)
+    frame = replace(rough, strokes=turned)
+    told = answered(frame, not the_pair(rough).pairs)
+    far = [s.points for s in frame.strokes if s not in upright(frame)]
+    there = [s.points.tobytes() for s in told.strokes]
+    numbers = [there.index(points.tobytes()) for points in far]
+    assert numbers == sorted(numbers)
+    assert {s.color for s in told.strokes} == {(9, 9, 9)}
 
 
 def test_without_an_answer_nothing_changes(rough):
