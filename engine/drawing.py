@@ -18,7 +18,7 @@ from .errors import InvoluteError
 from .fidelity import Fidelity, fidelity, warnings
 from .graph.editing import Edits, Step, edited, place_on
 from .ink.known_inks import with_known_inks
-from .rough.asking import cleaned_again, parts_of, questions, with_answers
+from .rough.asking import cleaned_again, parts_of, questions, with_answers, with_lines
 from .routing import around, checked_pairs, place_of_pairs, rescored, route, taught
 from .routing.cost import costs
 from .routing.lifting import goes_on
@@ -528,6 +528,29 @@ class Drawing:
         routing = rescored(self.graph, self.routing, score, decided, heard)
         ways = {place: routing.alternatives[place][0].pairs for place in heard.tolist()}
         return self._with_ways(ways, routing)
+
+    def merge(self, strokes: Iterable[int]) -> Drawing:
+        """Make one line of several in a rough drawing, wherever their pencil strokes run beside
+        each other; the bundles there are locked.
+
+        Raises:
+            InvoluteError: there is no such stroke, or none of them run beside each other.
+        """
+        return self._bundled([self.pencil_of(number) for number in strokes], True)
+
+    def split(self, stroke: int) -> Drawing:
+        """Make a line of each of the pencil strokes that say a stroke of a rough drawing, as far as
+        these lie apart; the bundles there are locked.
+
+        Raises:
+            InvoluteError: there is no such stroke, or a single pencil stroke says it.
+        """
+        return self._bundled([self.pencil_of(stroke)], False)
+
+    def _bundled(self, lines: Sequence[Sequence[int]], one: bool) -> Drawing:
+        if self.pencil is None or self.pencil.beside is None:
+            raise InvoluteError(NOT_KEPT)
+        return self.answered(with_lines(self.pencil, lines, one, self.scale, self.size))
 
     def restroked(self, settings: Settings) -> Drawing:
         """The same lines and decisions with the strokes made anew.

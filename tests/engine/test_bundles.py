@@ -159,6 +159,29 @@ def test_locking_keeps_what_is_in_force(rough):
     assert sum(b.locked for b in sure.bundles) > 1
 
 
+def test_lines_are_merged_and_split(rough):
+    two = answered(rough, False)
+    first, second = (two.strokes.index(line) for line in upright(two))
+    one = two.merge([first, second])
+    assert len(upright(one)) == 1
+    assert the_pair(one).locked
+    check_drawing(one)
+    again = drawing_json.read(drawing_json.dumps(one))
+    (line,) = upright(again)
+    assert len(upright(again.split(again.strokes.index(line)))) == 2
+    with pytest.raises(InvoluteError, match="run beside each other"):
+        two.split(first)
+    with pytest.raises(InvoluteError, match="There is no stroke"):
+        two.merge([0, 999])
+
+
+def test_a_clean_drawing_has_nothing_to_split():
+    clean = vectorize(with_a_pair(), Settings(drawing="clean"))
+    with pytest.raises(InvoluteError, match="what its lines were made of"):
+        clean.split(0)
+    assert clean.bundles == ()
+
+
 def test_a_bundle_takes_no_other_answer(rough):
     with pytest.raises(InvoluteError, match="one line or two"):
         rough.reroute(the_pair(rough).index, [(0, 99)])

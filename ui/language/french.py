@@ -801,6 +801,9 @@ TEXTS = {
     "Taken for a rough drawing: its {0} pencil strokes say {1} lines.": (
         "Pris pour un brouillon : ses {0} traits de crayon disent {1} lignes."
     ),
+    "No pencil strokes of these lines run beside each other.": (
+        "Aucun trait de crayon de ces lignes ne court à côté d’un autre."
+    ),
     "The pencil strokes of a bundle are one line or two.": (
         "Les traits de crayon d’un faisceau font une ligne ou deux."
     ),

@@ -839,6 +839,9 @@ TEXTS = {
     "Taken for a rough drawing: its {0} pencil strokes say {1} lines.": (
         "Für eine Rohzeichnung gehalten: ihre {0} Bleistiftstriche sagen {1} Linien."
     ),
+    "No pencil strokes of these lines run beside each other.": (
+        "Keine Bleistiftstriche dieser Linien laufen nebeneinander."
+    ),
     "The pencil strokes of a bundle are one line or two.": (
         "Die Bleistiftstriche eines Bündels sind eine Linie oder zwei."
     ),

@@ -767,6 +767,9 @@ TEXTS = {
     "Taken for a rough drawing: its {0} pencil strokes say {1} lines.": (
         "ラフと判断しました。鉛筆の {0} ストロークは {1} 本の線を表しています。"
     ),
+    "No pencil strokes of these lines run beside each other.": (
+        "これらの線の鉛筆のストロークは並んでいません。"
+    ),
     "The pencil strokes of a bundle are one line or two.": (
         "束の鉛筆のストロークは、一本か二本の線です。"
     ),
