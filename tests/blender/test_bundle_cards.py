@@ -158,6 +158,28 @@ def test_answers_are_undone(bpy, part, traced):
     assert the_pair(bpy, part).locked
 
 
+def test_answers_are_undone_in_edit_mode(bpy, part, traced, tmp_path):
+    was = bool(the_pair(bpy, part).pairs)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.ed.undo_push(message="In Edit Mode")
+    answer(bpy, part, not was)
+    bpy.ops.ed.undo_push(message="Answered")
+    bpy.ops.ed.undo()
+    data = bpy.context.active_object.data
+    assert len(upright(part, data)) == (1 if was else 2)
+    assert not the_pair(bpy, part).locked
+    answer(bpy, part, not was)
+    assert len(upright(part, data)) == (2 if was else 1)
+    bpy.ops.ed.undo_push(message="Answered")
+    bpy.ops.ed.undo()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    # What undo brought back is saved with its bundles.
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "undone.blend"))
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "undone.blend"))
+    assert not the_pair(bpy, part).locked
+    assert bool(the_pair(bpy, part).pairs) == was
+
+
 def test_copies_are_answered_apart(bpy, part, traced):
     was = bool(the_pair(bpy, part).pairs)
     obj = bpy.context.active_object
