@@ -52,7 +52,7 @@ def _about_drawing(drawing: Drawing) -> Iterator[str]:
     for sentence in (*drawing.notes, *drawing.warnings):
         yield f"           {sentence}"
     yield f"branches   {drawing.graph.branch_count}"
-    bundles = sum(index >= len(drawing.graph.places) for index in drawing.doubtful)
+    bundles = len(drawing.doubtful_bundles)
     yield f"junctions  {len(drawing.junctions)}, {len(drawing.doubtful) - bundles} doubtful"
     if drawing.bundles:
         yield f"bundles    {len(drawing.bundles)}, {bundles} doubtful"

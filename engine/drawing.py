@@ -17,7 +17,8 @@ import numpy as np
 from .errors import InvoluteError
 from .fidelity import Fidelity, fidelity, warnings
 from .graph.editing import Edits, Step, edited, place_on
-from .rough.asking import cleaned_again, parts_of, questions, with_answers
+from .ink.known_inks import with_known_inks
+from .rough.asking import cleaned_again, parts_of, questions, with_answers, with_lines
 from .routing import around, checked_pairs, place_of_pairs, rescored, route, taught
 from .routing.cost import costs
 from .routing.lifting import goes_on
@@ -154,12 +155,13 @@ class Drawing:
 
     def answered(self, answers: Answers) -> Drawing:
         """The lines that the pencil strokes say, one or two as the artist answers; all other
-        decisions are made again.
+        decisions are made again, and lines keep number, direction and ink as in a sequence.
 
         Raises:
             InvoluteError: the drawing is a clean one, or it does not know what it was made of.
         """
         from .decisions import decided_again
+        from .sequence.follow import follow
 
         pencil = self.pencil
         if pencil is None or pencil.beside is None:
@@ -167,12 +169,13 @@ class Drawing:
         made = cleaned_again(pencil.beside, answers, self.settings, self.scale, self.size)
         page = Scan(np.zeros((1, 1), np.float32), None, self.scale, self.size, 1.0)
         lines = Drawing.from_routing(made.graph, made.routing, page, self.settings)
+        strokes = with_known_inks(lines.strokes, list(dict.fromkeys(s.color for s in self.strokes)))
         old, new = (_note(len(pencil.strokes), len(d.strokes)) for d in (self, lines))
         cleaned = replace(
             self,
             graph=lines.graph,
             routing=lines.routing,
-            strokes=lines.strokes,
+            strokes=follow(self.strokes, strokes) if strokes else (),
             page=lines.page,
             edits=None,
             region_colors=None,
@@ -310,6 +313,12 @@ class Drawing:
         least = DOUBTFUL * float(np.median(self.graph.widths))
         order = np.argsort(-costs, kind="stable")
         return tuple(order[costs[order] >= least].tolist())
+
+    @property
+    def doubtful_bundles(self) -> tuple[int, ...]:
+        """Those of the doubtful ones that are bundles."""
+        first = len(self.graph.places)
+        return tuple(number for number in self.doubtful if number >= first)
 
     def reroute(self, junction: int, pairs: Iterable[Pair]) -> Drawing:
         """Join exactly these half-branches at a junction or corner, end the others there, and lock
@@ -519,6 +528,29 @@ class Drawing:
         routing = rescored(self.graph, self.routing, score, decided, heard)
         ways = {place: routing.alternatives[place][0].pairs for place in heard.tolist()}
         return self._with_ways(ways, routing)
+
+    def merge(self, strokes: Iterable[int]) -> Drawing:
+        """Make one line of several in a rough drawing, wherever their pencil strokes run beside
+        each other; the bundles there are locked.
+
+        Raises:
+            InvoluteError: there is no such stroke, or none of them run beside each other.
+        """
+        return self._bundled([self.pencil_of(number) for number in strokes], True)
+
+    def split(self, stroke: int) -> Drawing:
+        """Make a line of each of the pencil strokes that say a stroke of a rough drawing, as far as
+        these lie apart; the bundles there are locked.
+
+        Raises:
+            InvoluteError: there is no such stroke, or a single pencil stroke says it.
+        """
+        return self._bundled([self.pencil_of(stroke)], False)
+
+    def _bundled(self, lines: Sequence[Sequence[int]], one: bool) -> Drawing:
+        if self.pencil is None or self.pencil.beside is None:
+            raise InvoluteError(NOT_KEPT)
+        return self.answered(with_lines(self.pencil, lines, one, self.scale, self.size))
 
     def restroked(self, settings: Settings) -> Drawing:
         """The same lines and decisions with the strokes made anew.

@@ -41,7 +41,8 @@ def answered(found: Bundled, answers: Answers, scale: float) -> Answered:
         changed = there[sides]
         one[changed], one[own] = joined, joined
         settled[changed] = settled[own] = True
-        named[np.concatenate([found.rungs.a[own], found.rungs.b[own]])] = True
+        if not joined:  # what is left over of one line would stay, too
+            named[np.concatenate([found.rungs.a[own], found.rungs.b[own]])] = True
     return Answered(replace(found, one=one, named=named), settled)
 
 

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
+from ..errors import InvoluteError
 from ..settings import Settings
 from ..values import Answers, Array, Beside, Bundle, Pencil
 from .answered import answered, between
@@ -41,6 +42,32 @@ def with_answers(answers: Answers, given: Iterable[tuple[Bundle, bool | None]]) 
     """The answers with others to some questions: one line, two lines, or None = not answered."""
     rows = [(np.array(b.strokes), np.array(b.span), one) for b, one in given]
     return _with_rows(answers, rows)
+
+
+def with_lines(
+    pencil: Pencil, lines: Sequence[Sequence[int]], one: bool, scale: float, size: tuple[int, int]
+) -> Answers:
+    """The answers that make one of some lines, or of each of them its pencil strokes.
+
+    Args:
+        lines: the pencil strokes of each. one: make one line where strokes of two of them run
+            beside each other; else two where strokes of the same do.
+
+    Raises:
+        InvoluteError: none run beside each other.
+    """
+    assert pencil.beside is not None, "nothing is known of what runs beside each other"
+    runs = runs_of(answered(recalled(pencil.beside, scale, size), Answers.none(), scale))
+    on = np.zeros((len(lines), len(pencil.strokes)), bool)
+    for number, strokes in enumerate(lines):
+        on[number, list(strokes)] = True
+    first, second = (on[:, runs.strokes[:, side]] for side in (0, 1))
+    together = (first & second).any(0)
+    chosen = ~together & first.any(0) & second.any(0) if one else together
+    rows = [(runs.strokes[k], scale * runs.span[k], one) for k in np.flatnonzero(chosen).tolist()]
+    if not rows:
+        raise InvoluteError("No pencil strokes of these lines run beside each other.")
+    return _with_rows(pencil.answers, rows)
 
 
 def _with_rows(answers: Answers, rows: Sequence[tuple[Array, Array, bool | None]]) -> Answers:

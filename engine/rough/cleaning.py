@@ -37,7 +37,7 @@ class Bundled:
 
     one: (K,) bool, for each rung, on a page that is known to be rough; probability: (K,) of that.
     told: (K,) the same probability on a page of which nothing is known.
-    named: (N,) bool, samples of which the artist said that they are a line.
+    named: (N,) bool, samples of which the artist said that they are a line of their own.
     """
 
     strokes: Sampled

@@ -39,7 +39,8 @@ def meant_lines(
     """The graph without the branches that most probably mean nothing.
 
     Args:
-        net: other weights. named: (N,) bool, samples of which the artist said that they are a line.
+        net: other weights.
+        named: (N,) bool, samples of which the artist said that they are a line of their own.
     """
     for _ in range(_ROUNDS):
         if graph.branch_count == 0:

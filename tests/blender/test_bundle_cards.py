@@ -158,6 +158,28 @@ def test_answers_are_undone(bpy, part, traced):
     assert the_pair(bpy, part).locked
 
 
+def test_answers_are_undone_in_edit_mode(bpy, part, traced, tmp_path):
+    was = bool(the_pair(bpy, part).pairs)
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.ed.undo_push(message="In Edit Mode")
+    answer(bpy, part, not was)
+    bpy.ops.ed.undo_push(message="Answered")
+    bpy.ops.ed.undo()
+    data = bpy.context.active_object.data
+    assert len(upright(part, data)) == (1 if was else 2)
+    assert not the_pair(bpy, part).locked
+    answer(bpy, part, not was)
+    assert len(upright(part, data)) == (2 if was else 1)
+    bpy.ops.ed.undo_push(message="Answered")
+    bpy.ops.ed.undo()
+    bpy.ops.object.mode_set(mode="OBJECT")
+    # What undo brought back is saved with its bundles.
+    bpy.ops.wm.save_as_mainfile(filepath=str(tmp_path / "undone.blend"))
+    bpy.ops.wm.open_mainfile(filepath=str(tmp_path / "undone.blend"))
+    assert not the_pair(bpy, part).locked
+    assert bool(the_pair(bpy, part).pairs) == was
+
+
 def test_copies_are_answered_apart(bpy, part, traced):
     was = bool(the_pair(bpy, part).pairs)
     obj = bpy.context.active_object
@@ -224,3 +246,42 @@ def test_cards_show_one_line_and_two(bpy, part, traced):
     apart = geometry.sketch(drawing, asked, ())
     assert abs(np.median(apart[0].points[:, 0]) - np.median(apart[1].points[:, 0])) > 0.15
     assert geometry.labels(drawing, asked) == []
+
+
+def test_rings_of_bundles_are_small_until_they_are_worth_a_look(bpy, part, traced):
+    geometry, colors = part("ui.overlay.overlay_geometry"), part("ui.overlay.colors")
+    table = shown_in(bpy, part).table
+    made = geometry.rings(table, 4.0, (colors.SURE, colors.DOUBTFUL, colors.LOCKED))
+    seen = np.flatnonzero(np.isfinite(table.positions[:, 0]))
+    points = made.points.reshape(len(seen), -1, 2)
+    radii = np.linalg.norm(points - table.positions[seen, None], axis=2).max(1)
+    minor = (table.degree[seen] == 2) & ~table.doubtful[seen] & ~table.locked[seen]
+    assert minor.any()
+    assert (radii[minor] < 2).all()
+    assert (radii[~minor] > 3.9).all()
+
+
+def test_frames_of_a_sequence_are_answered_apart(bpy, part, tmp_path):
+    part("engine.scan")  # brings OpenCV
+    import cv2
+
+    for number in (1, 2):
+        page = np.full((240, 360), 255, np.uint8)
+        for x, y, right, low in (*ROUGH, *PAIR):
+            cv2.line(page, (x + number, y), (right + number, low), 0, 2, cv2.LINE_AA)
+        cv2.imwrite(str(tmp_path / f"run_{number:03}.png"), page)
+    options = {"provider": "classical", "solids": False, "drawing": "rough", "jobs": 1}
+    assert bpy.ops.involute.trace_sequence(directory=str(tmp_path), **options) == {"FINISHED"}
+    state, data = part("operators.grease_pencil.state"), bpy.context.active_object.data
+    before = state.doubtful_frames(data)
+    bpy.context.scene.frame_set(2)
+    was = bool(the_pair(bpy, part).pairs)
+    answer(bpy, part, not was)
+    assert the_pair(bpy, part).locked
+    assert bool(the_pair(bpy, part).pairs) != was
+    after = state.doubtful_frames(data)
+    assert after.keys() == before.keys()
+    assert after[1] == before[1]
+    bpy.context.scene.frame_set(1)
+    assert not the_pair(bpy, part).locked
+    assert bool(the_pair(bpy, part).pairs) == was

@@ -11,6 +11,7 @@ from involute.command.cli import main
 from involute.engine import Drawing, InvoluteError, Settings, vectorize
 from involute.engine.decisions import carried
 from involute.engine.formats import drawing_json
+from involute.engine.sequence.follow import reverse
 from involute.engine.soundness import check_drawing
 
 from .test_damaged_drawings import changed, put
@@ -87,6 +88,18 @@ def test_the_rest_of_the_page_stays(rough):
         assert any(np.array_equal(points, s.points) for s in one.strokes)
 
 
+def test_lines_of_a_sequence_keep_direction_and_ink(rough):
+    """As its frame before had them, strokes run the other way, and their ink is another shade."""
+    turned = tuple(replace(reverse(s), color=(9, 9, 9)) for s in rough.strokes)
+    frame = replace(rough, strokes=turned)
+    told = answered(frame, not the_pair(rough).pairs)
+    far = [s.points for s in frame.strokes if s not in upright(frame)]
+    there = [s.points.tobytes() for s in told.strokes]
+    numbers = [there.index(points.tobytes()) for points in far]
+    assert numbers == sorted(numbers)
+    assert {s.color for s in told.strokes} == {(9, 9, 9)}
+
+
 def test_without_an_answer_nothing_changes(rough):
     again = rough.answered(rough.pencil.answers)
     np.testing.assert_array_equal(again.graph.points, rough.graph.points)
@@ -144,6 +157,29 @@ def test_locking_keeps_what_is_in_force(rough):
     assert the_pair(locked).pairs == asked.pairs
     sure = rough.accept_above(0.5)
     assert sum(b.locked for b in sure.bundles) > 1
+
+
+def test_lines_are_merged_and_split(rough):
+    two = answered(rough, False)
+    first, second = (two.strokes.index(line) for line in upright(two))
+    one = two.merge([first, second])
+    assert len(upright(one)) == 1
+    assert the_pair(one).locked
+    check_drawing(one)
+    again = drawing_json.read(drawing_json.dumps(one))
+    (line,) = upright(again)
+    assert len(upright(again.split(again.strokes.index(line)))) == 2
+    with pytest.raises(InvoluteError, match="run beside each other"):
+        two.split(first)
+    with pytest.raises(InvoluteError, match="There is no stroke"):
+        two.merge([0, 999])
+
+
+def test_a_clean_drawing_has_nothing_to_split():
+    clean = vectorize(with_a_pair(), Settings(drawing="clean"))
+    with pytest.raises(InvoluteError, match="what its lines were made of"):
+        clean.split(0)
+    assert clean.bundles == ()
 
 
 def test_a_bundle_takes_no_other_answer(rough):

@@ -68,6 +68,16 @@ TEXTS = {
     "{strokes:,} strokes, {solids:,} solids, {seconds:.1f} s": (
         "{strokes:,} traits, {solids:,} aplats, {seconds:.1f} s"
     ),
+    "{junctions:,} junctions, {bundles:,} bundles, {doubtful:,} doubtful": (
+        "{junctions:,} jonctions, {bundles:,} faisceaux, {doubtful:,} douteux"
+    ),
+    (
+        "{strokes} strokes, {junctions} junctions and {bundles} bundles "
+        "({doubtful} doubtful), {seconds:.1f} s"
+    ): (
+        "{strokes} traits, {junctions} jonctions et {bundles} faisceaux "
+        "({doubtful} douteux), {seconds:.1f} s"
+    ),
     "{junctions:,} junctions, {doubtful:,} doubtful": (
         "{junctions:,} jonctions, {doubtful:,} douteuses"
     ),
@@ -790,6 +800,9 @@ TEXTS = {
     ),
     "Taken for a rough drawing: its {0} pencil strokes say {1} lines.": (
         "Pris pour un brouillon : ses {0} traits de crayon disent {1} lignes."
+    ),
+    "No pencil strokes of these lines run beside each other.": (
+        "Aucun trait de crayon de ces lignes ne court à côté d’un autre."
     ),
     "The pencil strokes of a bundle are one line or two.": (
         "Les traits de crayon d’un faisceau font une ligne ou deux."

@@ -72,6 +72,16 @@ TEXTS = {
     "{strokes:,} strokes, {solids:,} solids, {seconds:.1f} s": (
         "{strokes:,} Striche, {solids:,} Flächen, {seconds:.1f} s"
     ),
+    "{junctions:,} junctions, {bundles:,} bundles, {doubtful:,} doubtful": (
+        "{junctions:,} Kreuzungen, {bundles:,} Bündel, {doubtful:,} zweifelhaft"
+    ),
+    (
+        "{strokes} strokes, {junctions} junctions and {bundles} bundles "
+        "({doubtful} doubtful), {seconds:.1f} s"
+    ): (
+        "{strokes} Striche, {junctions} Kreuzungen und {bundles} Bündel "
+        "({doubtful} zweifelhaft), {seconds:.1f} s"
+    ),
     "{junctions:,} junctions, {doubtful:,} doubtful": (
         "{junctions:,} Kreuzungen, {doubtful:,} zweifelhaft"
     ),
@@ -828,6 +838,9 @@ TEXTS = {
     ),
     "Taken for a rough drawing: its {0} pencil strokes say {1} lines.": (
         "Für eine Rohzeichnung gehalten: ihre {0} Bleistiftstriche sagen {1} Linien."
+    ),
+    "No pencil strokes of these lines run beside each other.": (
+        "Keine Bleistiftstriche dieser Linien laufen nebeneinander."
     ),
     "The pencil strokes of a bundle are one line or two.": (
         "Die Bleistiftstriche eines Bündels sind eine Linie oder zwei."

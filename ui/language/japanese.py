@@ -68,6 +68,16 @@ TEXTS = {
     "{strokes:,} strokes, {solids:,} solids, {seconds:.1f} s": (
         "ストローク {strokes:,}、ベタ {solids:,}、{seconds:.1f} 秒"
     ),
+    "{junctions:,} junctions, {bundles:,} bundles, {doubtful:,} doubtful": (
+        "交点 {junctions:,}、束 {bundles:,}、疑わしいもの {doubtful:,}"
+    ),
+    (
+        "{strokes} strokes, {junctions} junctions and {bundles} bundles "
+        "({doubtful} doubtful), {seconds:.1f} s"
+    ): (
+        "ストローク {strokes}、交点 {junctions}、束 {bundles}"
+        "（疑わしいもの {doubtful}）、{seconds:.1f} 秒"
+    ),
     "{junctions:,} junctions, {doubtful:,} doubtful": (
         "交点 {junctions:,}、疑わしい交点 {doubtful:,}"
     ),
@@ -756,6 +766,9 @@ TEXTS = {
     ),
     "Taken for a rough drawing: its {0} pencil strokes say {1} lines.": (
         "ラフと判断しました。鉛筆の {0} ストロークは {1} 本の線を表しています。"
+    ),
+    "No pencil strokes of these lines run beside each other.": (
+        "これらの線の鉛筆のストロークは並んでいません。"
     ),
     "The pencil strokes of a bundle are one line or two.": (
         "束の鉛筆のストロークは、一本か二本の線です。"

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 Array = np.ndarray
 
 _SIDES = 20  # of a ring
+_MINOR = 0.4  # of a ring, one of a bundle that is not worth a look
 _LABEL_AT = 34.0  # px from the junction
 _HALFWAY = 24  # points of a line halfway between two
 _REACH_APART, _LEAST_REACH = 4.0, 12.0  # times how far two strokes lie apart, and px: of a sketch
@@ -45,7 +46,8 @@ class Route:
 
 
 def rings(table: JunctionTable, radius: float, scale: tuple[Color, Color, Color]) -> Rings:
-    """A ring around each junction with strokes: the more doubtful, the larger and the more yellow.
+    """A ring around each junction with strokes: the more doubtful, the larger and the more yellow;
+    those of bundles that nothing hangs on are small.
 
     Args:
         radius: of a certain junction's ring, px.
@@ -56,6 +58,8 @@ def rings(table: JunctionTable, radius: float, scale: tuple[Color, Color, Color]
     circle = np.stack([np.cos(turn), np.sin(turn)], axis=1)
     doubt, locked = table.doubt[seen], table.locked[seen]
     radii = radius * (1.0 + np.where(locked, 0.0, np.minimum(2 * doubt, 1.0)))
+    minor = (table.degree[seen] == 2) & ~table.doubtful[seen] & ~locked
+    radii = np.where(minor, _MINOR * radius, radii)
     points = table.positions[seen, None] + radii[:, None, None] * circle
     colors = doubt_colors(doubt, locked, *scale)
     corner = np.arange(_SIDES)
