@@ -54,7 +54,9 @@ class Signs:
             told: (K,) how probable it is that each rung joins strokes of one line, on any page.
             graph: of the pencil strokes. pen: px.
         """
-        shares = (_share(strokes, rungs.a[k]) for k in (told > _ONE, told >= 0, told < _TWO))
+        one, beside, two = (
+            _share(strokes, rungs.a[k]) for k in (told > _ONE, told >= 0, told < _TWO)
+        )
         length = lengths(graph) / pen
         degree = graph.degrees[graph.ends]
         loose = degree.min(1) == 1
@@ -62,7 +64,8 @@ class Signs:
         out = loose & (degree.max(1) >= 3) & (length > least) & (length < most)
         per = 100 / max(float(length.sum()), 1e-6)
         at_junctions = _with_short_ends(graph, length < most)
-        return Signs(*shares, float(per * out.sum()), at_junctions, float(per * loose.sum()))
+        overshot, all_loose = float(per * out.sum()), float(per * loose.sum())
+        return Signs(one, beside, two, overshot, at_junctions, all_loose)
 
     @property
     def may_be_rough(self) -> bool:
