@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 _NEAR = 2.5  # pen widths; a junction that is traced again lies that near to where it was
 _TURNED = np.radians(40.0)  # a line that leaves in another direction is another one
+_TIE = 1e-6  # radians; lines that lie on each other are told by their order
 _SAME_SPAN = 1.0  # px; the pencil strokes are the same, and so is what is asked of them
 _REACH = 5.0  # pen widths over which the direction of a line is measured
 
@@ -155,6 +156,7 @@ def _same_place(
             continue
         theirs = _directions(graph, halves)
         turned = np.abs(np.angle(np.exp(1j * (mine[:, None] - theirs))))
+        turned += _TIE * np.abs(np.subtract.outer(np.arange(len(mine)), np.arange(len(theirs))))
         order = turned.argmin(1)
         if len(set(order.tolist())) == len(halves) and turned.min(1).max() <= _TURNED:
             pairs = zip(decision.half_branches, order.tolist(), strict=True)

@@ -17,6 +17,7 @@ import numpy as np
 from .errors import InvoluteError
 from .fidelity import Fidelity, fidelity, warnings
 from .graph.editing import Edits, Step, edited, place_on
+from .graph.topology import places_of_repeated, repeated, select
 from .ink.known_inks import with_known_inks
 from .rough.asking import cleaned_again, parts_of, questions, with_answers, with_lines
 from .rough.unchanged import unchanged
@@ -281,7 +282,8 @@ class Drawing:
         if self.graph.branch_count == 0:
             return ()
         assert self.graph.widths is not None, "a drawing's graph is measured"
-        return closed_regions(self.graph, 4.0 * float(np.median(self.graph.widths)) ** 2)
+        graph = select(self.graph, ~repeated(self.graph))
+        return closed_regions(graph, 4.0 * float(np.median(self.graph.widths)) ** 2)
 
     @cached_property
     def _decided(self) -> dict[int, tuple[Pair, ...]]:
@@ -489,7 +491,8 @@ class Drawing:
         return replace(self, routing=routing)
 
     def heard(self, said: Array) -> Drawing:
-        """The places that are not locked, decided anew with what somebody says of their pairs.
+        """The places that are not locked, and at which no second line begins or ends, decided anew
+        with what somebody says of their pairs.
 
         The probabilities stay what the picture alone says: who decided against it is in doubt.
 
@@ -498,7 +501,7 @@ class Drawing:
         """
         routing, decided = self.routing, self._decided
         where = np.unique(place_of_pairs(self.graph, routing.pairs[said != 0]))
-        where = where[~routing.locked[where]]
+        where = where[~(routing.locked | places_of_repeated(self.graph))[where]]
         if not len(where):
             return self
         heard = rescored(self.graph, routing, routing.pair_score + said, decided, where)
@@ -518,7 +521,7 @@ class Drawing:
             ways = {place: self.routing.alternatives[place][0].pairs for place in free}
             return self._with_ways(ways, self.routing)
         graph = self.graph.scaled(1 / self.scale)
-        routing = route(graph, self.settings, self._decided)
+        routing = route(graph, self.settings, self._decided, known=self.routing)
         return replace(self._with_partner(routing.partner), routing=routing)
 
     def ask_around(self, before: Drawing) -> Drawing:

@@ -32,6 +32,7 @@ from .rough.asking import cleaned_again
 from .rough.cleaning import Bundled, bundled, is_rough
 from .rough.remembered import remembered
 from .routing import route
+from .routing.second_lines import with_second_lines
 from .scan import read_scan
 from .scan.registration import set_aside
 from .scan.resolution import dots_per_inch
@@ -248,8 +249,10 @@ class _Trace:
         self._own = {}  # the strokes need no more than that
         with self._clock("strokes"):
             graph, fills, scan = _as_they_lay(graph, fills, scan)
-            drawing = Drawing.from_routing(graph, routing, scan, self._settings, fills)
             bundles = _bundles(graph, routing, scan, self._settings)
+            if bundles is None:  # a rough drawing has several strokes on most ridges
+                graph, routing = with_second_lines(graph, routing, self._settings)
+            drawing = Drawing.from_routing(graph, routing, scan, self._settings, fills)
             if bundles is not None:
                 kept = remembered(bundles, graph, routing.partner, scan.scale)
                 drawing = _clean(drawing, kept, scan, self._settings, fills)

@@ -21,6 +21,7 @@ from .composed_pages import SOURCES, Library
 from .media import DIGITAL, MEDIA, NUDGE, draw, line_spacing, sample
 from .pen_lifts import KINDS, Habit, lifted
 from .pencilling import Hand, pencilled
+from .shared_runs import with_shared_runs
 from .sheet_of_paper import paper, scan, shadow
 from .true_graph import single_lines
 
@@ -51,6 +52,7 @@ def main() -> None:
     parser.add_argument(
         "--habit", default="as drawn", choices=KINDS, help="where the pen is lifted"
     )
+    parser.add_argument("--overlaps", type=int, default=0, help="pairs of lines that share a run")
     parser.add_argument("--each", action="store_true", help="every drawing once, the richest first")
     args = parser.parse_args()
     args.out.mkdir(parents=True, exist_ok=True)
@@ -63,6 +65,8 @@ def main() -> None:
         name = f"page_{number:03d}"
         pen = float(rng.uniform(*list(_PENS.values())[number % len(_PENS)]))
         strokes = lifted(rng, strokes, Habit.drawn(rng, pen, args.habit))
+        if args.overlaps:
+            strokes = with_shared_runs(rng, strokes, _SIDE, pen, args.overlaps)[0]
         image, style = _LOOKS[args.look](rng, strokes, number, pen)
         if args.look == "one bit":  # JPEG would bring grey in
             cv2.imwrite(str(args.out / f"{name}.png"), image)
@@ -74,9 +78,16 @@ def main() -> None:
 
 
 def endless(
-    rng: np.random.Generator, library: Library, only: Sequence[str] | None = None
+    rng: np.random.Generator,
+    library: Library,
+    only: Sequence[str] | None = None,
+    once: bool = True,
 ) -> Iterator[list[Array]]:
-    """True strokes that fill a page: one drawing, or several over each other."""
+    """True strokes that fill a page: one drawing, or several over each other.
+
+    Args:
+        only: these sets alone. once: without what is drawn twice.
+    """
     names = [name for name in only or _SOURCES if name in library.sources]
     weight = np.array([_SOURCES.get(name, 1) for name in names], float)
     while True:
@@ -84,7 +95,7 @@ def endless(
             strokes = library.page(rng)
         else:
             strokes = library.pick(rng, str(rng.choice(names, p=weight / weight.sum())))
-        strokes = _filling(strokes)
+        strokes = _filling(strokes, once)
         if _FEWEST <= len(strokes) <= _MOST:
             yield strokes
 
@@ -97,12 +108,13 @@ def _richest(library: Library, names: Sequence[str]) -> Iterator[list[Array]]:
     yield from sorted(filling, key=_length, reverse=True)
 
 
-def _filling(strokes: list[Array]) -> list[Array]:
-    """A drawing at the size of a page, each of its lines once."""
+def _filling(strokes: list[Array], once: bool = True) -> list[Array]:
+    """A drawing at the size of a page, each of its lines once, or as it is."""
     low = np.min([line.min(0) for line in strokes], 0)
     size = float((np.max([line.max(0) for line in strokes], 0) - low).max())
     scale = (_SIDE - 2 * _MARGIN) / max(size, 1e-6)
-    return single_lines([(line - low) * scale + _MARGIN for line in strokes])
+    placed = [(line - low) * scale + _MARGIN for line in strokes]
+    return single_lines(placed) if once else placed
 
 
 def _length(strokes: list[Array]) -> float:

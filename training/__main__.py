@@ -26,6 +26,7 @@ RUNS = {
     "routing-export": ("routing.export_routing", "calibrate it and write what the engine ships"),
     "routing-geometric": ("routing.geometric_fit", "fit the weights of the geometric router"),
     "undrawn": ("undrawn.train_undrawn", "learn which branches nobody drew"),
+    "second-lines": ("second_lines.train_second_lines", "learn which runs carry two strokes"),
     "rough": ("rough.train_rough", "learn how many pencil strokes become one line"),
     "digests": ("digests", "note what the shipped weights contain"),
 }

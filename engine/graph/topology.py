@@ -76,6 +76,23 @@ def joined(graph: PlanarGraph, hold: Array | None = None) -> tuple[PlanarGraph, 
     return select(whole, np.ones(whole.branch_count, bool)), halves.reshape(-1)
 
 
+def repeated(graph: PlanarGraph) -> Array:
+    """(B,) bool: branches that lie on earlier ones from end to end, point by point, as the second
+    line on a shared run does (`routing.second_lines`); no others have inner points in common."""
+    count = np.diff(graph.offsets)
+    place = np.ascontiguousarray(graph.points, np.float32).view(np.uint64)[:, 0]
+    _, first, same = np.unique(place, return_index=True, return_inverse=True)
+    branch = np.repeat(np.arange(graph.branch_count), count)
+    earlier = branch[first][same.reshape(-1)] < branch
+    earlier[graph.offsets[:-1]] = earlier[graph.offsets[1:] - 1] = True
+    return (np.bincount(branch, earlier, graph.branch_count) == count) & (count > 2)
+
+
+def places_of_repeated(graph: PlanarGraph) -> Array:
+    """(J + C,) bool: the places at which a repeated branch begins or ends."""
+    return np.isin(graph.places, graph.ends[repeated(graph)])
+
+
 def connected(count: int, links: Array) -> Array:
     """(count,) int32: the smallest number that each number is linked to by (K, 2) links."""
     label = np.arange(count, dtype=np.int32)

@@ -13,7 +13,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..errors import InvoluteError
-from ..graph.topology import joined
+from ..graph.topology import joined, places_of_repeated, repeated, select
 from ..involution import best_matching, pairs_of
 from ..settings import Settings
 from ..values import Array, Pair, PlanarGraph, Routing
@@ -33,6 +33,7 @@ def route(
     fixed: Fixed | None = None,
     *,
     scorer: Scorer | None = None,
+    known: Routing | None = None,
 ) -> Routing:
     """Pair the half-branches of every junction and every corner.
 
@@ -40,6 +41,7 @@ def route(
         fixed: number of a place -> the pairs that the user has decided; they are kept and locked,
             and the scorers may learn from them.
         scorer: of the pairs at junctions; None = the one that the settings ask for.
+        known: an earlier routing of the graph; its scores stay where second lines begin and end.
 
     Raises:
         InvoluteError: fixed pairs that are not disjoint pairs of half-branches of their junction.
@@ -49,7 +51,10 @@ def route(
     turns = lifting.score(graph, fixed)
     crossing = len(pairs) - len(turns)
     score = np.concatenate(
-        [_at_junctions(graph, pairs[:crossing], fixed, scorer or scorer_for(settings)), turns]
+        [
+            _around_second(graph, pairs[:crossing], fixed, scorer or scorer_for(settings), known),
+            turns,
+        ]
     )
     alternatives = ranked_alternatives(graph, score, fixed)
 
@@ -104,8 +109,8 @@ def taught(
     """
     differ = {j for j in {*before, *after} if before.get(j) != after.get(j)}
     centers = np.array([j for j in sorted(differ) if j < len(graph.junctions)], np.int64)
-    part = Neighbourhood.of(graph, graph.junctions[centers])
-    heard = np.isin(graph.places, part.near)
+    part = Neighbourhood.of(graph, graph.junctions[centers], repeated(graph))
+    heard = np.isin(graph.places, part.near) & ~places_of_repeated(graph)
     rows = np.flatnonzero(heard[place_of_pairs(graph, routing.pairs)])
     if not len(rows):
         return routing.pair_score, np.zeros(0, np.int64)
@@ -140,6 +145,27 @@ def with_corners(routing: Routing, graph: PlanarGraph) -> Routing:
         routing.alternatives + lifting.alternatives(pairs, score),
         np.concatenate([routing.locked, np.zeros(missing, bool)]),
     )
+
+
+def _around_second(
+    graph: PlanarGraph, pairs: Array, fixed: Fixed, scorer: Scorer, known: Routing | None
+) -> Array:
+    """(K,) scores of the pairs at junctions. Scorers never see second lines (`second_lines`): where
+    these begin and end, scores are those that are known."""
+    if known is None or not (again := repeated(graph)).any():
+        return _at_junctions(graph, pairs, fixed, scorer)
+    shared = places_of_repeated(graph)
+    asked = ~shared[place_of_pairs(graph, pairs)]
+    number = np.repeat(2 * (np.cumsum(~again) - 1), 2) + np.tile([0, 1], graph.branch_count)
+    decided = {
+        place: tuple((int(number[a]), int(number[b])) for a, b in ways)
+        for place, ways in fixed.items()
+        if not shared[place]
+    }
+    score = known.pair_score[: len(pairs)].copy()
+    part = select(graph, ~again)
+    score[asked] = _at_junctions(part, number[pairs[asked]].astype(np.int32), decided, scorer)
+    return score
 
 
 def _at_junctions(graph: PlanarGraph, pairs: Array, fixed: Fixed, scorer: Scorer) -> Array:

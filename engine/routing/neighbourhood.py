@@ -28,8 +28,11 @@ class Neighbourhood:
     vertex: Array
 
     @staticmethod
-    def of(graph: PlanarGraph, centers: Array) -> Neighbourhood:
-        """The neighbourhood of some vertices, with context: one junction more all around."""
+    def of(graph: PlanarGraph, centers: Array, without: Array) -> Neighbourhood:
+        """The neighbourhood of some vertices, with context: one junction more all around.
+
+        without: (B,) bool, branches that are left out.
+        """
         inside = np.zeros(len(graph.vertices), bool)
         inside[centers] = True
         near = inside
@@ -37,7 +40,7 @@ class Neighbourhood:
             inside = _wider(graph, inside)
             near = inside.copy() if hop == HOPS - 1 else near
         near[centers] = False
-        kept = inside[graph.ends].any(1)
+        kept = inside[graph.ends].any(1) & ~without
         part = select(graph, kept)
         vertex, number = np.full(len(graph.vertices), -1), np.full(2 * graph.branch_count, -1)
         vertex[graph.ends[kept]] = part.ends

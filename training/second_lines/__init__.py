@@ -1,0 +1,1 @@
+"""Learns on which runs of a stroke a second one goes on."""
