@@ -1,9 +1,10 @@
 """Learn at which corners the pen was lifted, for `engine/routing/lifting.py`.
 
-`python -m training.corners.train_corners --data DIR --run RUN --pages 800` draws and traces pages
-with the lifts of many hands (`lift_pages`; RUN/train.npz and RUN/held_out.npz, started again it
-goes on), trains a small network in a minute and writes engine/weights/corners.npz; the held-out
-pages choose when to stop. The figures go to RUN/log.json.
+`python -m training run corners --data DIR --run RUN --pages 800` draws and traces pages with the
+lifts of many hands (`lift_pages`; RUN/train.npz and RUN/held_out.npz, started again it goes on),
+trains a small network in a minute and writes engine/weights/corners.npz; the held-out pages choose
+when to stop. With `--start engine/weights/corners.npz` the network that ships is trained on. The
+figures go to RUN/log.json.
 """
 
 from __future__ import annotations
@@ -92,21 +93,37 @@ def weights(model: Lifts) -> dict[str, Array]:
     return {name: np.ascontiguousarray(value, np.float32) for name, value in found.items()}
 
 
-def train(data: Corners, held: Corners, steps: int, seed: int, dropout: float) -> Lifts:
-    """The weights that are best on the held-out pages."""
-    torch.manual_seed(seed)
+def untrained(data: Corners, dropout: float) -> Lifts:
+    """A new network for such evidence."""
+    evidence = torch.from_numpy(data.evidence.astype(np.float32))
+    return Lifts(evidence.mean(0), evidence.std(0).clamp(min=0.02), dropout)
+
+
+def restored(path: Path, dropout: float) -> Lifts:
+    """The network whose weights are in a file, to be trained on."""
+    with np.load(path) as file:
+        saved = {name: torch.from_numpy(file[name]) for name in file.files}
+    model = Lifts(saved["mean"], saved["spread"], dropout)
+    for name in ("see", "judge"):
+        linear = [layer for layer in getattr(model, name) if isinstance(layer, nn.Linear)]
+        for k, layer in enumerate(linear):
+            layer.weight.data = saved[f"{name}_weight{k}"].T.contiguous()
+            layer.bias.data = saved[f"{name}_bias{k}"]
+    return model
+
+
+def train(model: Lifts, data: Corners, held: Corners, steps: int, rate: float, seed: int) -> Lifts:
+    """The weights that are best on the held-out pages, those it is given among them."""
     rng = np.random.default_rng(seed)
-    torch.set_num_threads(1)
     evidence, truth = torch.from_numpy(data.evidence.astype(np.float32)), data.truth
-    spread = evidence.std(0).clamp(min=0.02)
-    model = Lifts(evidence.mean(0), spread, dropout)
-    rate = 2e-3
     optimizer = torch.optim.AdamW(model.parameters(), lr=rate, weight_decay=0.1)
     plan = torch.optim.lr_scheduler.OneCycleLR(optimizer, rate, total_steps=steps)
     order = np.argsort(data.page, kind="stable")
     bounds = np.searchsorted(data.page[order], np.arange(len(data.habit) + 1))
     full = np.flatnonzero(np.diff(bounds) > 0)
-    best, kept = np.inf, {}
+    kept = _copied(model)
+    best = figures(model.eval(), held)["loss"]
+    model.train()
     for step in range(steps):
         pages = rng.choice(full, _PAGES)
         rows = np.concatenate([order[bounds[p] : bounds[p + 1]] for p in pages])
@@ -124,10 +141,13 @@ def train(data: Corners, held: Corners, steps: int, seed: int, dropout: float) -
             model.train()
             print(step + 1, round(float(loss.detach()), 3), figure, flush=True)
             if figure["loss"] < best:
-                best = figure["loss"]
-                kept = {name: value.clone() for name, value in model.state_dict().items()}
+                best, kept = figure["loss"], _copied(model)
     model.load_state_dict(kept)
     return model.eval()
+
+
+def _copied(model: Lifts) -> dict[str, Tensor]:
+    return {name: value.clone() for name, value in model.state_dict().items()}
 
 
 def _loss(
@@ -190,6 +210,8 @@ def main(argv: Sequence[str] | None = None) -> None:
     parser.add_argument("--pages", type=int, default=800, help="and an eighth of that, held out")
     parser.add_argument("--jobs", type=int, default=1, help="parallel processes")
     parser.add_argument("--steps", type=int, default=500)
+    parser.add_argument("--rate", type=float, default=2e-3, help="highest learning rate")
+    parser.add_argument("--start", type=Path, help="corners.npz to start from")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--dropout", type=float, default=0.3)
     parser.add_argument("--out", type=Path, default=WEIGHTS)
@@ -198,7 +220,10 @@ def main(argv: Sequence[str] | None = None) -> None:
     work = {"data": args.data, "seed": args.seed, "jobs": args.jobs}
     data = gathered(args.run / "train.npz", args.pages, **work)
     held = gathered(args.run / "held_out.npz", max(args.pages // 8, 1), held_out=True, **work)
-    model = train(data, held, args.steps, args.seed, args.dropout)
+    torch.manual_seed(args.seed)
+    torch.set_num_threads(1)
+    first = restored(args.start, args.dropout) if args.start else untrained(data, args.dropout)
+    model = train(first, data, held, args.steps, args.rate, args.seed)
     found = figures(model, held)
     print(json.dumps(found, indent=1))
     (args.run / "log.json").write_text(json.dumps(found, indent=1), "utf-8")
