@@ -129,7 +129,7 @@ def train(model: Lifts, data: Corners, held: Corners, steps: int, rate: float, s
     bounds = np.searchsorted(data.page[order], np.arange(len(data.habit) + 1))
     full = np.flatnonzero(np.diff(bounds) > 0)
     kept = _copied(model)
-    best = figures(model.eval(), held)["loss"]
+    best = figures(model.eval(), held)["of pages"]
     model.train()
     for step in range(steps):
         pages = rng.choice(full, _PAGES)
@@ -148,8 +148,8 @@ def train(model: Lifts, data: Corners, held: Corners, steps: int, rate: float, s
             figure = figures(model, held)
             model.train()
             print(step + 1, round(float(loss.detach()), 3), figure, flush=True)
-            if figure["loss"] < best:
-                best, kept = figure["loss"], _copied(model)
+            if figure["of pages"] < best:
+                best, kept = figure["of pages"], _copied(model)
     model.load_state_dict(kept)
     return model.eval()
 
@@ -177,11 +177,15 @@ def _loss(
     target = torch.from_numpy(truth)[known]
     with_page, alone = model(seen, page, torch.from_numpy(decided))
     loss = nn.functional.binary_cross_entropy_with_logits
-    # A page with many corners counts more than one with few, but not as much more.
-    size = torch.bincount(page[known], minlength=_PAGES).clamp(min=1).float()
-    weight = (size**-0.5)[page[known]]
-    weight = weight / weight.mean()
+    weight = torch.from_numpy(_share(page[known].numpy()))
     return loss(with_page[known], target, weight) + 0.3 * loss(alone[known], target, weight)
+
+
+def _share(page: Array) -> Array:
+    """(C,) float32, 1 on the mean: a page with many corners counts more than one with few, but not
+    as much more."""
+    weight = np.bincount(page)[page] ** -0.5
+    return np.asarray(weight / weight.mean(), np.float32)
 
 
 def figures(model: Lifts, data: Corners) -> dict[str, float]:
@@ -195,6 +199,7 @@ def figures(model: Lifts, data: Corners) -> dict[str, float]:
     habit = data.habit[data.page]
     found = {
         "loss": _nll(score[known], truth[known]),
+        "of pages": _nll(score[known], truth[known], _share(data.page[known])),
         "alone": _nll(alone[known], truth[known]),
     }
     turned = data.evidence[:, 1] > np.radians(35)
@@ -213,8 +218,8 @@ def figures(model: Lifts, data: Corners) -> dict[str, float]:
     return {name: round(value, 3) for name, value in found.items()}
 
 
-def _nll(score: Array, truth: Array) -> float:
-    return float(np.logaddexp(0, np.where(truth > 0, -score, score)).mean())
+def _nll(score: Array, truth: Array, weight: Array | float = 1.0) -> float:
+    return float((weight * np.logaddexp(0, np.where(truth > 0, -score, score))).mean())
 
 
 def main(argv: Sequence[str] | None = None) -> None:
