@@ -59,6 +59,7 @@ RUNS: dict[str, NamedRun] = {
     ),
     "rough": NamedRun("rough_to_clean", "the lines of held-out rough pages, --data DRAWINGS"),
     "review": NamedRun("review_worth", "what is flagged, calibration, what 30 decisions find"),
+    "bundles": NamedRun("bundle_worth", "the same of bundles on rough pages, --data DRAWINGS"),
     "redraw": NamedRun("blender_costs", "an idle redraw in a window", function="in_window"),
     "extension": NamedRun("extension", "what the built ZIP weighs and costs to enable"),
     "junction_gallery": NamedRun("junction_gallery", "a picture of twelve kinds of junctions"),

@@ -20,7 +20,7 @@ import cv2
 import numpy as np
 from involute.engine import Settings, vectorize
 from involute.synthesis.composed_pages import Library
-from involute.synthesis.line_art import resample
+from involute.synthesis.line_art import pieces, resample
 from involute.synthesis.rough_drawings import rough_drawing
 from involute.training.rough.rough_pages import on_sheet
 
@@ -29,7 +29,7 @@ from .run_record import Figures
 
 Array = np.ndarray
 
-_KINDS = ("keyframe", "sketch")
+KINDS = ("keyframe", "sketch")
 _WITHIN, _COVER, _OFF = 6.0, 0.85, 0.15  # px at 1024, and shares of a line
 
 
@@ -50,8 +50,8 @@ def main(argv: Sequence[str] | None = None) -> Figures:
     with ProcessPoolExecutor(options.jobs, get_context("spawn")) as pool:
         rows = np.array(list(pool.map(work, range(options.pages))))
     found = {}
-    for number, kind in enumerate(_KINDS):
-        f1, strokes, off, told = rows[number :: len(_KINDS)].T
+    for number, kind in enumerate(KINDS):
+        f1, strokes, off, told = rows[number :: len(KINDS)].T
         found[kind] = {
             "f1": float(f1.mean()),
             "strokes_a_line": float(np.median(strokes)),
@@ -86,7 +86,7 @@ def judged(data: Path, side: int, seed: int, number: int) -> tuple[float, float,
 def drawn(library: Library, side: int, seed: int, number: int) -> tuple[Array, list[Array]]:
     """A page, (side, side) uint8, and the lines that it means, as far as they lie on it."""
     rng = np.random.default_rng((seed, number))
-    drawing = rough_drawing(rng, library, _KINDS[number % len(_KINDS)], side)
+    drawing = rough_drawing(rng, library, KINDS[number % len(KINDS)], side)
     return on_sheet(rng, drawing.ink), [
         piece for line in drawing.lines for piece in _on_page(line, side)
     ]
@@ -96,8 +96,7 @@ def _on_page(line: Array, side: int) -> list[Array]:
     """What of a line lies on the page."""
     dense = resample(line.astype(np.float32), 2.0)
     inside = ((dense > 0) & (dense < side)).all(1)
-    runs = np.split(np.arange(len(dense)), np.flatnonzero(np.diff(inside)) + 1)
-    return [dense[run] for run in runs if inside[run[0]] and len(run) > 3]
+    return [piece for piece in pieces(dense, inside) if len(piece) > 3]
 
 
 if __name__ == "__main__":

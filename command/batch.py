@@ -59,7 +59,8 @@ class Outcome:
     """What became of a task.
 
     report: seconds of each stage that ran (none where it is the same picture again), strokes,
-        junctions, doubtful, width, height, peak_rss_mb; and aligned, where that was asked for.
+        junctions, doubtful, width, height, peak_rss_mb; and aligned, where that was asked for,
+        bundles and doubtful_bundles of a rough drawing.
     error: one sentence, or None when the outputs are there.
     resumed: nothing had to be made.
     kept: outputs that were left alone because someone has edited them.
@@ -331,13 +332,21 @@ def summary(drawing: Drawing) -> dict[str, Any]:
         "seconds": {stage: round(value, 4) for stage, value in drawing.seconds.items()},
         "strokes": len(drawing.strokes),
         "junctions": len(drawing.junctions),
-        "doubtful": len(drawing.doubtful),
+        "doubtful": len(drawing.doubtful) - len(drawing.doubtful_bundles),
         "width": drawing.size[0],
         "height": drawing.size[1],
         "peak_rss_mb": peak_rss_mb(),
         **aligned,
+        **_bundles(drawing),
         **_checked(drawing),
     }
+
+
+def _bundles(drawing: Drawing) -> dict[str, Any]:
+    """Of a rough drawing, what may be one line or two."""
+    if drawing.pencil is None:
+        return {}
+    return {"bundles": len(drawing.bundles), "doubtful_bundles": len(drawing.doubtful_bundles)}
 
 
 def _checked(drawing) -> dict[str, Any]:

@@ -57,6 +57,7 @@ def main(
     except InvoluteError as error:
         return _say(str(error), FAILED)
     except KeyboardInterrupt:
+        stopping.answered()
         return _say("Stopped; finished files are whole, nothing is half-written.", STOPPED)
     except MemoryError:
         return _say("There is not enough memory.", FAILED)

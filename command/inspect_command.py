@@ -10,6 +10,7 @@ from ..engine import runtimes
 from ..engine.errors import InvoluteError
 from ..engine.formats import format_of, load
 from ..engine.settings import Settings
+from ..engine.values import Bundle, Junction
 
 if TYPE_CHECKING:
     from ..engine.drawing import Drawing
@@ -51,26 +52,35 @@ def _about_drawing(drawing: Drawing) -> Iterator[str]:
     for sentence in (*drawing.notes, *drawing.warnings):
         yield f"           {sentence}"
     yield f"branches   {drawing.graph.branch_count}"
-    yield f"junctions  {len(drawing.junctions)}, {len(drawing.doubtful)} doubtful"
-    if not drawing.junctions:
+    bundles = len(drawing.doubtful_bundles)
+    yield f"junctions  {len(drawing.junctions)}, {len(drawing.doubtful) - bundles} doubtful"
+    if drawing.bundles:
+        yield f"bundles    {len(drawing.bundles)}, {bundles} doubtful"
+    if not drawing.junctions and not drawing.bundles:
         return
     yield ""
     yield " junction        x        y  degree  doubt  joined (next best)"
     doubtful = set(drawing.doubtful)
-    order = [*drawing.doubtful, *(j.index for j in drawing.junctions if j.index not in doubtful)]
-    for junction in (drawing.junctions[index] for index in order):
+    both: list[Junction | Bundle] = [*drawing.junctions, *drawing.bundles]
+    order = [*drawing.doubtful, *(one.index for one in both if one.index not in doubtful)]
+    for junction in map(drawing.asked, order):
+        said = _pairs if isinstance(junction, Junction) else _lines
         x, y = junction.position
         others = [a for a in junction.alternatives if a.pairs != junction.pairs]
-        second = f"({_pairs(others[0].pairs)}: {others[0].probability:.0%})" if others else ""
+        second = f"({said(others[0].pairs)}: {others[0].probability:.0%})" if others else ""
         state = "lock " if junction.locked else f"{junction.doubt:5.0%}"
         yield (
             f"{junction.index:9d} {x:8.1f} {y:8.1f} {junction.degree:7d}  {state}  "
-            f"{_pairs(junction.pairs)} {second}"
+            f"{said(junction.pairs)} {second}"
         )
 
 
 def _pairs(pairs: Sequence[tuple[int, int]]) -> str:
     return " ".join(f"{a}-{b}" for a, b in pairs) or "none"
+
+
+def _lines(pairs: Sequence[tuple[int, int]]) -> str:
+    return "one line" if pairs else "two lines"
 
 
 def _about_scan(path: Path) -> Iterator[str]:

@@ -27,6 +27,16 @@ def check() -> None:
         raise KeyboardInterrupt
 
 
+def answered() -> None:
+    """Python, too, takes what interrupted it as dealt with, and leaves the exit code to us.
+
+    Interrupted in a text that `exec` or `eval` runs, as where a dataclass is made, it remembers
+    that until the next such text, and ends as if killed by SIGINT, whoever caught it (CPython,
+    Python/pythonrun.c, `run_eval_code_obj`).
+    """
+    exec("")
+
+
 @contextmanager
 def held() -> Iterator[None]:
     """What runs here is not interrupted; who told to end is heard after it.

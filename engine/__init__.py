@@ -14,9 +14,10 @@ if TYPE_CHECKING:
     from .kept_stages import KeptStages
     from .pipeline import vectorize
     from .settings import Settings
-    from .values import Junction, Stroke
+    from .values import Bundle, Junction, Stroke
 
 _HOMES = {
+    "Bundle": "values",
     "Cancelled": "errors",
     "Drawing": "drawing",
     "InvoluteError": "errors",
@@ -27,6 +28,7 @@ _HOMES = {
     "vectorize": "pipeline",
 }
 __all__ = [
+    "Bundle",
     "Cancelled",
     "Drawing",
     "InvoluteError",

@@ -12,13 +12,15 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from .errors import InvoluteError
-from .values import Array, Junction, Pair, PlanarGraph
+from .rough.asking import carried_answers
+from .values import Array, Bundle, Junction, Pair, PlanarGraph
 
 if TYPE_CHECKING:
     from .drawing import Drawing
 
 _NEAR = 2.5  # pen widths; a junction that is traced again lies that near to where it was
 _TURNED = np.radians(40.0)  # a line that leaves in another direction is another one
+_SAME_SPAN = 1.0  # px; the pencil strokes are the same, and so is what is asked of them
 _REACH = 5.0  # pen widths over which the direction of a line is measured
 
 
@@ -31,6 +33,19 @@ class Carried(NamedTuple):
 
 def carried(old: Drawing, new: Drawing) -> Carried:
     """The new drawing with every decision of the old one that it has a place for."""
+    lost = 0
+    if old.pencil and len(old.pencil.answers.one):
+        lost = len(old.pencil.answers.one)
+        if new.pencil:
+            scales = old.scale, new.scale
+            answers, lost = carried_answers(old.pencil, new.pencil, scales, new.size)
+            new = new.answered(answers) if len(answers.one) else new
+    made = decided_again(old, new)
+    return Carried(made.drawing, made.lost + lost)
+
+
+def decided_again(old: Drawing, new: Drawing) -> Carried:
+    """The same for junctions and corners alone, what was cut and what was joined."""
     if _same_lines(old, new):
         steps = old.edits.steps if old.edits else ()
         again = new.with_edits(steps).with_scores(old.routing.pair_score)
@@ -52,6 +67,20 @@ def carried(old: Drawing, new: Drawing) -> Carried:
         pairs = [_ordered(halves[a], halves[b]) for a, b in decision.pairs]
         new = new.reroute(place, pairs)
     return Carried(new, lost)
+
+
+def number_in(new: Drawing, old: Drawing, number: int) -> int:
+    """The number that a junction, corner or bundle has after an answer about bundles; -1 = none."""
+    if new.pencil is old.pencil:
+        return number
+    asked = old.asked(number)
+    if isinstance(asked, Bundle):
+        same = [b for b in new.bundles if b.strokes == asked.strokes]
+        apart = [abs(b.span[0] - asked.span[0]) + abs(b.span[1] - asked.span[1]) for b in same]
+        best = int(np.argmin(apart)) if same else -1
+        return same[best].index if same and apart[best] < _SAME_SPAN else -1
+    found = _same_place(old, asked, new, _NEAR * _pen(old.graph))
+    return -1 if found is None else found[0]
 
 
 def _same_lines(old: Drawing, new: Drawing) -> bool:

@@ -28,7 +28,9 @@ from .graph.passes import ROUTED
 from .ink.unmixing import without_inks
 from .kept_stages import KeptStages, Source, keys
 from .rough import grouping
-from .rough.cleaning import Bundled, bundled, cleaned, is_rough
+from .rough.asking import cleaned_again
+from .rough.cleaning import Bundled, bundled, is_rough
+from .rough.remembered import remembered
 from .routing import route
 from .scan import read_scan
 from .scan.registration import set_aside
@@ -37,7 +39,7 @@ from .scan.screentone import without_screentone
 from .scan.show_through import without_show_through
 from .scan.wide_lines import WideLines, find_wide_lines
 from .settings import Settings
-from .values import Array, LineMaps, PlanarGraph, Pose, Routing, Scan
+from .values import Answers, Array, Beside, LineMaps, PlanarGraph, Pose, Routing, Scan
 from .vector_page import drawing_of_vectors, is_vector
 from .wide_pens import look_again
 
@@ -249,7 +251,8 @@ class _Trace:
             drawing = Drawing.from_routing(graph, routing, scan, self._settings, fills)
             bundles = _bundles(graph, routing, scan, self._settings)
             if bundles is not None:
-                drawing = _clean(drawing, bundles, scan, self._settings, fills)
+                kept = remembered(bundles, graph, routing.partner, scan.scale)
+                drawing = _clean(drawing, kept, scan, self._settings, fills)
         with self._clock("check"):
             drawing = replace(drawing.compared_with(scan), dpi=self._dpi())
         return self._made("strokes", drawing)
@@ -267,12 +270,12 @@ def _bundles(
 
 
 def _clean(
-    drawn: Drawing, bundles: Bundled, scan: Scan, settings: Settings, fills: list[Fill]
+    drawn: Drawing, kept: Beside, scan: Scan, settings: Settings, fills: list[Fill]
 ) -> Drawing:
-    """The clean drawing of a rough one."""
-    made = cleaned(bundles, settings, (scan.ink.shape[0], scan.ink.shape[1]))
+    """The clean drawing of a rough one, made of what it keeps, as it is after an answer."""
+    made = cleaned_again(kept, Answers.none(), settings, scan.scale, scan.size)
     lines = Drawing.from_routing(made.graph, made.routing, scan, settings, fills)
-    return lines.cleaned_from(drawn, made.said)
+    return lines.cleaned_from(drawn, made.said, kept)
 
 
 def _as_they_lay(

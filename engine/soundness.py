@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .values import Alternative, Array, PlanarGraph, Routing, Stroke
+from .strokes.walk import walk
+from .values import Alternative, Array, Beside, PlanarGraph, Routing, Stroke
 
 if TYPE_CHECKING:
     from .drawing import Drawing
@@ -22,6 +23,7 @@ _FARTHEST = 10.0 * _LARGEST_SIDE  # px from the page's corner
 _THICKEST = float(_LARGEST_SIDE)  # px
 _APART = 0.05  # px between the end of a branch and its vertex, for rounding
 _SCALES = (1e-3, 1e3)  # input pixels per working pixel
+_MOST_PIXELS = 20_000**2  # working pixels of a page that is cleaned again; no picture has more
 _DPI = (1.0, 100_000.0)  # pixels per inch; microscopes scan at some 25,000
 
 
@@ -72,6 +74,36 @@ def _check_pencil(drawing: Drawing) -> None:
     _table(pencil.said, "i", (None, 2), what)
     _numbered(pencil.said[:, 0], len(pencil.strokes), what)
     _numbered(pencil.said[:, 1], drawing.graph.branch_count, what)
+    if pencil.beside is not None:
+        _check_beside(pencil.beside, len(pencil.strokes))
+        width, height = (side / drawing.scale for side in drawing.size)
+        _need(width * height <= _MOST_PIXELS, "its page is too large to clean it again")
+    _check_spans(pencil.answers.strokes, pencil.answers.spans, len(pencil.strokes), "the answers")
+    _table(pencil.answers.one, "b", (len(pencil.answers.strokes),), "the answers")
+    first, second = pencil.answers.strokes.T
+    _need(bool((first < second).all()), "an answer is not about two pencil strokes")
+    _need(pencil.beside is not None or not len(first), "there are answers to no question")
+
+
+def _check_beside(kept: Beside, count: int) -> None:
+    """What a drawing is cleaned again from: as many strokes, well measured."""
+    check_graph(kept.graph)
+    _need(kept.graph.branch_count > 0, "its pencil strokes have no lines")
+    _need(kept.graph.strength is not None, "its pencil strokes have no strength")
+    check_involution(kept.graph, kept.partner)
+    _need(len(walk(kept.partner)) == count, "its pencil strokes are not those of their lines")
+    what = "what runs beside each other"
+    _check_spans(kept.strokes, kept.spans, count, what)
+    _table(kept.right, "b", (len(kept.strokes),), what)
+    _table(kept.probability, "f", (len(kept.strokes),), what)
+    _need(bool(((kept.probability >= 0) & (kept.probability <= 1)).all()), what)
+
+
+def _check_spans(strokes: Array, spans: Array, count: int, what: str) -> None:
+    _table(strokes, "i", (None, 2), what)
+    _numbered(strokes, count, what)
+    _table(spans, "f", (len(strokes), 2), what)
+    _within(spans, _FARTHEST, what)
 
 
 def _check_fidelity(drawing: Drawing) -> None:

@@ -8,7 +8,7 @@ the scale where its pens are 2 to 8 px wide; `Scan.scale` leads back to the pixe
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
@@ -294,16 +294,86 @@ class Stroke:
 
 
 @dataclass(frozen=True, eq=False)
+class Beside:
+    """How pencil strokes run beside each other: all that the lines are made of, without the page.
+
+    graph: the pencil strokes in evenly spaced samples, in input pixels.
+    partner: (2B,) int32 involution of its half-branches; stroke s is the s-th of its walks.
+    strokes: (R, 2) int32 for each stretch the stroke that it lies on, and the one beside it.
+    right: (R,) bool whether that one lies to the right, along the first.
+    spans: (R, 2) float32 where it begins and ends along the first of them, px.
+    probability: (R,) float32 that both mean one line there.
+    """
+
+    graph: PlanarGraph
+    partner: Array
+    strokes: Array
+    right: Array
+    spans: Array
+    probability: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Answers:
+    """What the artist said of pencil strokes that run beside each other, the latest last.
+
+    strokes: (A, 2) int32 pencil strokes, the lower number first.
+    spans: (A, 2) float32 from where to where along the first of them, px.
+    one: (A,) bool: they are one line; else two.
+    """
+
+    strokes: Array
+    spans: Array
+    one: Array
+
+    @classmethod
+    def none(cls) -> Answers:
+        return cls(np.zeros((0, 2), np.int32), np.zeros((0, 2), np.float32), np.zeros(0, bool))
+
+
+@dataclass(frozen=True, eq=False)
 class Pencil:
     """The strokes of a rough drawing, of which a clean one was made.
 
     strokes: as they were drawn, in input pixels; they run through no branches.
     said: (K, 2) int32: a pencil stroke, and a branch of the clean graph that it is a part of;
         what is in no row belongs to nothing. Sorted.
+    beside: what the lines were made of; None in files of before it was kept.
+    answers: what the artist said of it.
     """
 
     strokes: tuple[Stroke, ...]
     said: Array
+    beside: Beside | None = None
+    answers: Answers = field(default_factory=Answers.none)
+
+
+@dataclass(frozen=True)
+class Bundle:
+    """Two pencil strokes beside each other, and what else is drawn with them, as the user sees it:
+    is it one line or two?
+
+    index: goes on after the numbers of the corners. position: between them, input pixels.
+    strokes: the two pencil strokes. span: from where to where along the first, px.
+    pairs: the two joined = one line; none = two lines.
+    """
+
+    index: int
+    position: tuple[float, float]
+    strokes: Pair
+    span: tuple[float, float]
+    pairs: tuple[Pair, ...]
+    alternatives: tuple[Alternative, ...]
+    locked: bool
+
+    @property
+    def degree(self) -> int:
+        return 2
+
+    @property
+    def doubt(self) -> float:
+        """1 - probability of the answer that is in force; 0 when the user has given it."""
+        return _doubt(self)
 
 
 @dataclass(frozen=True)
@@ -325,7 +395,11 @@ class Junction:
     @property
     def doubt(self) -> float:
         """1 - probability of the routing that is in force; 0 when the user has locked it."""
-        if self.locked:
-            return 0.0
-        chosen = (a.probability for a in self.alternatives if a.pairs == self.pairs)
-        return 1.0 - next(chosen, 0.0)
+        return _doubt(self)
+
+
+def _doubt(place: Junction | Bundle) -> float:
+    if place.locked:
+        return 0.0
+    chosen = (a.probability for a in place.alternatives if a.pairs == place.pairs)
+    return 1.0 - next(chosen, 0.0)

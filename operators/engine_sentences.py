@@ -24,6 +24,9 @@ SENTENCES = (
         "--pen-width."
     ),
     "Taken for a rough drawing: its {0} pencil strokes say {1} lines.",
+    "The pencil strokes of a bundle are one line or two.",
+    "No pencil strokes of these lines run beside each other.",
+    "This drawing does not know what its lines were made of; trace the picture again.",
     "This stroke ends there already.",
     "To join, two different ends of strokes are needed.",
     "Only ends can be joined; cut the stroke that goes on there first.",

@@ -124,6 +124,12 @@ def resample(stroke: Array, step: float) -> Array:
 # Invented strokes: each returns strokes and the widest pen that keeps them apart.
 
 
+def pieces(stroke: Array, kept: Array) -> Strokes:
+    """The runs of (N, 2) points that are kept, by (N,) bool."""
+    runs = np.split(stroke, np.flatnonzero(np.diff(kept)) + 1)
+    return runs[0 if kept[0] else 1 :: 2]
+
+
 def _bezier(p: Array, count: int = 48) -> Array:
     t = np.linspace(0, 1, count)[:, None]
     u = 1 - t

@@ -16,7 +16,7 @@ from . import pencilling
 from .composed_pages import Library
 from .figures import figure
 from .held_out_pages import endless
-from .line_art import Array, Rng, Strokes, resample, wobble
+from .line_art import Array, Rng, Strokes, pieces, resample, wobble
 from .media import DIGITAL, MEDIA, Medium, draw, line_spacing, sample
 from .pencilling import Hand, angular, construction, in_pieces, keyed, pencilled
 
@@ -171,18 +171,10 @@ def _windowed(rng: Rng, lines: Strokes, size: int) -> Strokes:
     corners = low + rng.random((2, 2)) * spare
     shown = [((packed > c) & (packed < c + size)).all(1).sum() for c in corners]
     corner = corners[int(np.argmax(shown))]
-    pieces: Strokes = []
-    for line in dense:
-        moved = (line - corner).astype(np.float32)
-        near = ((moved > -_BEYOND) & (moved < size + _BEYOND)).all(1)
-        runs = np.split(moved, np.flatnonzero(np.diff(near)) + 1)
-        pieces += [r for r, n in zip(runs, _firsts(near), strict=True) if n and len(r) > 1]
-    return pieces
-
-
-def _firsts(values: Array) -> Array:
-    """The first of every run of equal (N,) values."""
-    return values[np.r_[True, np.diff(values)]]
+    moved = [(line - corner).astype(np.float32) for line in dense]
+    near = [((line > -_BEYOND) & (line < size + _BEYOND)).all(1) for line in moved]
+    runs = [run for line, kept in zip(moved, near, strict=True) for run in pieces(line, kept)]
+    return [run for run in runs if len(run) > 1]
 
 
 def _underneath(

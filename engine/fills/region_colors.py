@@ -44,6 +44,23 @@ def region_colors(regions: Sequence[Region], graph: PlanarGraph, scan: Scan) -> 
     return np.where(is_paper(colors)[:, None], 255, np.rint(colors * 255)).astype(np.uint8)
 
 
+def same_colors(before: Sequence[Region], colors: Array, now: Sequence[Region]) -> Array:
+    """(R, 3) uint8: the colour of regions after lines have changed, of the most alike before.
+
+    Args:
+        before, now: the regions, and colors: (Q, 3) uint8 those of the first.
+    """
+    if not before or not now:
+        return np.full((len(now), 3), 255, np.uint8)
+    old, new = (np.array([_box(rings[0]) for rings in some]) for some in (before, now))
+    alike = [int(np.abs(old - box).sum(1).argmin()) for box in new]
+    return colors[alike]
+
+
+def _box(ring: Array) -> Array:
+    return np.concatenate([ring.min(0), ring.max(0)])
+
+
 def _fixed(points: Array, scan: Scan) -> Array:
     """Working pixels in OpenCV's fixed numbers; its pixel centres are whole numbers."""
     return np.round((points / scan.scale - 0.5) * (1 << _BITS)).astype(np.int32)

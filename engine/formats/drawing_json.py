@@ -12,7 +12,7 @@ import binascii
 import json
 import math
 import zlib
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import fields, replace
 from itertools import pairwise
 from pathlib import Path
@@ -26,7 +26,16 @@ from ..fidelity import Fidelity
 from ..routing import with_corners
 from ..settings import Settings
 from ..soundness import UnsoundError, check_drawing, check_graph
-from ..values import Alternative, Array, Pencil, PlanarGraph, Routing, Stroke
+from ..values import (
+    Alternative,
+    Answers,
+    Array,
+    Beside,
+    Pencil,
+    PlanarGraph,
+    Routing,
+    Stroke,
+)
 from .whole_file import write_text
 
 FORMAT, VERSION = "involute drawing", 1
@@ -71,9 +80,23 @@ def dumps(drawing: Drawing) -> str:
         "fidelity": drawing.fidelity and drawing.fidelity.as_dict(),
         "notes": list(drawing.notes),
         "warnings": list(drawing.warnings),
-        "pencil": pencil and {**_stroke_tables(pencil.strokes), "said": _packed(pencil.said)},
+        "pencil": pencil and _pencil_tables(pencil),
     }
     return json.dumps(document, separators=(",", ":"))
+
+
+def _pencil_tables(pencil: Pencil) -> dict[str, Any]:
+    tables = {**_stroke_tables(pencil.strokes), "said": _packed(pencil.said)}
+    if pencil.beside is not None:
+        kept = pencil.beside
+        tables["beside"] = {"graph": _graph_tables(kept.graph), **_tables_of(kept, "graph")}
+    if len(pencil.answers.one):
+        tables["answers"] = _tables_of(pencil.answers)
+    return tables
+
+
+def _tables_of(value: Beside | Answers, but: str = "") -> dict[str, Any]:
+    return {f.name: _packed(getattr(value, f.name)) for f in fields(value) if f.name != but}
 
 
 def _graph_tables(graph: PlanarGraph) -> dict[str, Any]:
@@ -190,13 +213,21 @@ def _drawing(document: dict[str, Any]) -> Drawing:
         fidelity=Fidelity.from_dict(document["fidelity"]) if document.get("fidelity") else None,
         notes=tuple(map(str, document.get("notes", ()))),
         warnings=tuple(map(str, document.get("warnings", ()))),
-        pencil=_pencil(tables(document["pencil"])) if document.get("pencil") else None,
+        pencil=_pencil(document["pencil"], tables) if document.get("pencil") else None,
     )
 
 
-def _pencil(data: dict[str, Array]) -> Pencil:
+def _pencil(part: dict[str, Any], tables: Callable[[dict[str, Any]], dict[str, Any]]) -> Pencil:
+    part = dict(part)
+    kept, answers = part.pop("beside", None), part.pop("answers", None)
+    beside = None
+    if kept:
+        graph = PlanarGraph(**tables(kept["graph"]))
+        beside = Beside(graph, **tables({k: v for k, v in kept.items() if k != "graph"}))
+    data = tables(part)
     said = data.pop("said")
-    return Pencil(tuple(_strokes(data)), said)
+    given = Answers(**tables(answers)) if answers else Answers.none()
+    return Pencil(tuple(_strokes(data)), said, beside, given)
 
 
 def _strokes(data: dict[str, Array]) -> list[Stroke]:

@@ -32,7 +32,7 @@ from .sampled import Sampled, reach_of
 ROUGH, HARDLY = 0.1, 0.018  # share of the length
 OVERSHOT = 0.7  # loose ends that stick out of another line, in 100 pens of length
 _STICKS_OUT = (1.5, 8.0)  # pens; length of such an end
-_ONE = 0.5  # probability from which on two strokes mean one line
+ONE = 0.5  # probability from which on two strokes mean one line
 _HATCHING = 0.05  # what knows hatching lets less than that pass on no page
 _OWN_WIDTH = 0.35  # quantile of the widths that is a single pencil stroke's: bundles are wider
 
@@ -41,8 +41,9 @@ _OWN_WIDTH = 0.35  # quantile of the widths that is a single pencil stroke's: bu
 class Bundled:
     """Pencil strokes, with the rungs between them and which of these join strokes of one line.
 
-    one: (K,) bool, for each rung, on a page that is known to be rough. told: (K,) bool, the same on
-    a page of which nothing is known.
+    one: (K,) bool, for each rung, on a page that is known to be rough; probability: (K,) of that.
+    told: (K,) bool, the same on a page of which nothing is known.
+    named: (N,) bool, samples of which the artist said that they are a line of their own.
     """
 
     strokes: Sampled
@@ -50,6 +51,8 @@ class Bundled:
     one: Array
     told: Array
     pen: float
+    probability: Array
+    named: Array
 
     @property
     def share(self) -> float:
@@ -75,11 +78,15 @@ def beside_each_other(graph: PlanarGraph, partner: Array, shape: tuple[int, int]
     Args:
         graph, partner: of the pencil strokes, measured. shape: (height, width), px.
     """
-    strokes = Sampled.of(graph, partner)
+    return run_beside(Sampled.of(graph, partner), shape)
+
+
+def run_beside(strokes: Sampled, shape: tuple[int, int]) -> Bundled:
+    """The same of strokes that are sampled already."""
     pen = max(float(np.median(strokes.width)), 1.0)
     found = rungs(strokes, shape, reach_of(pen))
-    none = np.zeros(len(found.a), bool)
-    return Bundled(strokes, found, none, none, pen)
+    none, unnamed = np.zeros(len(found.a), bool), np.zeros(len(strokes.points), bool)
+    return Bundled(strokes, found, none, none, pen, none.astype(np.float64), unnamed)
 
 
 def bundled(
@@ -101,7 +108,8 @@ def bundled(
     rows = grouping.features(found.strokes, found.rungs, ink, found.pen)
     told = grouping.probability(rows, "tells", net)[found.rungs.stretch]
     one = grouping.probability(rows, "same", net)[found.rungs.stretch]
-    return replace(found, one=(one > _ONE) & (told > _HATCHING), told=told > _ONE)
+    one = np.minimum(one, told * (ONE / _HATCHING))
+    return replace(found, one=one > ONE, told=told > ONE, probability=one)
 
 
 def is_rough(bundles: Bundled, graph: PlanarGraph, settings: Settings) -> bool:
@@ -143,7 +151,8 @@ def cleaned(found: Bundled, settings: Settings, shape: tuple[int, int]) -> Clean
         shape: (height, width) of the page, px.
     """
     bundles, graph = redrawn(found, settings, shape)
-    graph = bridged(meant_lines(graph, bundles, found.pen), bundles, found.pen)
+    meant = meant_lines(graph, bundles, found.pen, named=found.named)
+    graph = bridged(meant, bundles, found.pen)
 
     def by_bundles(graph: PlanarGraph, pairs: Array, fixed: Fixed) -> Array:
         return continuing.score(graph, pairs, bundles) + tint_score(graph, pairs)

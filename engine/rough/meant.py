@@ -24,18 +24,30 @@ from .sampled import Sampled, reach_of
 FEATURES = 13 + 8 + 6 + 2 * 9  # of a branch: its own, of what is beside it, its strokes, its ends
 _MOSTLY = 0.6  # share of a pencil stroke from which on it says nothing but this branch
 _SURE = 0.75  # probability of being meant below which a branch goes: crumbs are many
+_NAMED = 0.5  # share of a branch that the artist called a line, from which on it stays
 _ROUNDS = 2  # what hung on something that went is looked at again
 _LOOK = 8  # points of a branch that tell its direction
 
 
 def meant_lines(
-    graph: PlanarGraph, bundles: Bundles, pen: float, net: Mapping[str, Array] | None = None
+    graph: PlanarGraph,
+    bundles: Bundles,
+    pen: float,
+    net: Mapping[str, Array] | None = None,
+    named: Array | None = None,
 ) -> PlanarGraph:
-    """The graph without the branches that most probably mean nothing; net: other weights."""
+    """The graph without the branches that most probably mean nothing.
+
+    Args:
+        net: other weights.
+        named: (N,) bool, samples of which the artist said that they are a line of their own.
+    """
     for _ in range(_ROUNDS):
         if graph.branch_count == 0:
             break
         stays = probability(features(graph, bundles, pen), "meant", net) > _SURE
+        if named is not None and named.any():
+            stays |= means(graph, named[bundles.at(graph.points)]) > _NAMED
         if stays.all():
             break
         graph = join(select(graph, stays))

@@ -48,20 +48,15 @@ class Sampled:
     @classmethod
     def of(cls, graph: PlanarGraph, partner: Array) -> Sampled:
         """Sample a measured graph along the strokes that an involution makes of it."""
+        return cls.from_samples(samples_of(graph), partner)
+
+    @classmethod
+    def from_samples(cls, graph: PlanarGraph, partner: Array) -> Sampled:
+        """The same of a graph whose points are the samples, as `samples_of` gives it."""
         assert graph.widths is not None, "a pencil graph is measured"
         assert graph.strength is not None
-        axis = end_to_end(graph.points, graph.offsets)
-        low, high = axis[graph.offsets[:-1]], axis[graph.offsets[1:] - 1]
-        count = np.maximum(1, np.ceil((high - low) / SPACING)).astype(np.int64) + 1
-        offsets = offsets_of(count)
-        branch, number = owners(offsets), count_up(count)
-        at = low[branch] + number / (count[branch] - 1) * (high - low)[branch]
-
-        def values(of: Array) -> Array:
-            return np.interp(at, axis, of)
-
-        points = np.stack([values(graph.points[:, k]) for k in (0, 1)], 1)
-        vertex = np.full(len(at), -1)
+        points, offsets = graph.points.astype(np.float64), graph.offsets
+        vertex = np.full(len(points), -1)
         vertex[offsets[:-1]], vertex[offsets[1:] - 1] = graph.ends.T
         order, bounds, closed = _walked(offsets, partner)
         stroke, place, length, back, ahead = _along(points, order, bounds, closed)
@@ -75,10 +70,38 @@ class Sampled:
             back,
             ahead,
             _tangents(points, back, ahead),
-            values(graph.strength),
-            values(graph.widths),
-            _colors(graph, at, axis),
+            graph.strength.astype(np.float64),
+            graph.widths.astype(np.float64),
+            graph.colors,
         )
+
+
+def samples_of(graph: PlanarGraph) -> PlanarGraph:
+    """A measured graph with evenly spaced points on its branches, no more than `SPACING` apart."""
+    assert graph.widths is not None, "a pencil graph is measured"
+    assert graph.strength is not None
+    axis = end_to_end(graph.points, graph.offsets)
+    low, high = axis[graph.offsets[:-1]], axis[graph.offsets[1:] - 1]
+    count = np.maximum(1, np.ceil((high - low) / SPACING)).astype(np.int64) + 1
+    offsets = offsets_of(count)
+    branch, number = owners(offsets), count_up(count)
+    at = low[branch] + number / (count[branch] - 1) * (high - low)[branch]
+
+    def values(of: Array) -> Array:
+        return np.interp(at, axis, of).astype(np.float32)
+
+    points = np.stack([values(graph.points[:, k]) for k in (0, 1)], 1)
+    # The tips are their vertices, to the last bit.
+    points[offsets[:-1]], points[offsets[1:] - 1] = graph.vertices[graph.ends.T]
+    return PlanarGraph(
+        vertices=graph.vertices,
+        points=points,
+        offsets=offsets.astype(np.int32),
+        ends=graph.ends,
+        widths=values(graph.widths),
+        strength=values(graph.strength),
+        colors=_colors(graph, at, axis),
+    )
 
 
 def reach_of(pen: float) -> float:

@@ -14,6 +14,7 @@ from . import cels, state
 from .core.regraphed import regraphed
 from .core.splice import Edit, plan
 from .core.stroke_arrays import TRACE, column, concatenate
+from .retracing import reclean
 from .vertex_weights import with_weights
 
 if TYPE_CHECKING:
@@ -40,7 +41,10 @@ def change_routing(
         raise InvoluteError("This drawing is linked from another file; make it local to change it.")
     trace = state.load(data, key, frame)
     trace = replace(trace, pixel_map=state.pixel_map_at(data, frame, trace))
-    new = state.settled(data, key, how(trace.drawing))
+    new = how(trace.drawing)
+    if new.pencil is not trace.drawing.pencil:  # an answer about bundles made other lines
+        return state.load(data, reclean(data, frame, key, new), frame)
+    new = state.settled(data, key, new)
     layers, shown = zip(*cels.cels_at(data, frame), strict=True)
     edits = []
     old = regraphed(trace.drawing, new)

@@ -29,7 +29,8 @@ class INVOLUTE_OT_go_to_junction(JunctionOperator, bpy.types.Operator):
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Select the junction and look at it."""
         shown = shown_in(context)
-        if self.junction >= len(shown.table):
+        places = shown.table.positions
+        if self.junction >= len(places) or not np.isfinite(places[self.junction]).all():
             return {"CANCELLED"}
         select(shown, self.junction)
         if self.move_view:

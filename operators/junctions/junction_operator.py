@@ -39,9 +39,14 @@ def change_shown(
     Raises:
         InvoluteError: the change can't be made; nothing was changed.
     """
-    trace = change_routing(shown.object.data, shown.frame, shown.trace.key, how)
-    if shown.view.key == shown.trace.key:
-        shown.view.key = trace.key
+    from ...engine.decisions import number_in
+
+    view, before = shown.view, shown.trace
+    trace = change_routing(shown.object.data, shown.frame, before.key, how)
+    if view.key == before.key:
+        view.key = trace.key
+        if view.junction >= 0:
+            view.junction = number_in(trace.drawing, before.drawing, view.junction)
     shown.view.preview = -1
     redraw(context)
 
@@ -81,7 +86,7 @@ class JunctionOperator:
         if not 0 <= index < len(shown.table):
             self.report({"ERROR"}, message("Choose a junction first."))
             return {"CANCELLED"}
-        ways = shown.trace.drawing.routing.alternatives[index]
+        ways = shown.trace.drawing.asked(index).alternatives
         if alternative >= len(ways):
             said = message("This junction has {count} alternatives.", count=len(ways))
             self.report({"ERROR"}, said)

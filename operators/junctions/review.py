@@ -1,8 +1,8 @@
-"""Go through the doubtful junctions, the most costly first: a key decides and goes on."""
+"""Go through doubtful junctions and bundles, the most costly first: a key decides and goes on."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING
 
 import bpy
@@ -36,11 +36,22 @@ class INVOLUTE_OT_review(CardChoice, bpy.types.Operator):
         self._skipped: set[int] = set()  # those of them that stay open
         self._settled = 0  # doubts that went when others were decided
         shown = shown_in(context)
+        self._numbered_in = shown.trace.drawing  # what these numbers are of
         if len(open_doubts(shown, ())) == 0:
             self.report({"INFO"}, message("No junction is doubtful any more."))
             return {"CANCELLED"}
         self._show(context, shown, int(open_doubts(shown, ())[0]))
         return self.begin(context, self._status(shown))
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        """As ever; undo may have brought back lines of before an answer."""
+        shown = shown_in(context)
+        if shown is not None and shown.view.choosing and shown.view.key != shown.trace.key:
+            self._follow(shown)
+            left = open_doubts(shown, self._skipped)
+            if len(left):
+                self._show(context, shown, int(left[0]))
+        return super().modal(context, event)
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         """Scripts decide by `involute.reroute`; there is nothing to show them."""
@@ -89,20 +100,28 @@ class INVOLUTE_OT_review(CardChoice, bpy.types.Operator):
         if self._passed:
             before = self._passed.pop()
             self._skipped.discard(before)
+            if before < 0:  # an answer made other lines, and it is gone
+                return {"RUNNING_MODAL"}
             if shown.table.locked[before]:
+                drawing = shown.trace.drawing
                 self._change(context, lambda drawing: drawing.unlock(before))
-            self._show(context, shown_in(context), before)
+                (before,) = _numbers_now([before], drawing, shown_in(context).trace.drawing)
+            if before >= 0:
+                self._show(context, shown_in(context), before)
         return {"RUNNING_MODAL"}
 
     def _decided(
         self, context: bpy.types.Context, shown: Shown, how: Callable[[Drawing], Drawing]
     ) -> set[str]:
         """Decide, ask again what lies around it, count what that settled, and go on."""
-        index = shown.junction.index
-        open_before = open_doubts(shown, (index,))
+        index, before = shown.junction.index, shown.trace.drawing
+        open_before = open_doubts(shown, (index,)).tolist()
         if self._change(context, how):
-            left = open_doubts(shown_in(context), ())
-            self._settled += len(np.setdiff1d(open_before, left))
+            now = shown_in(context)
+            there = _numbers_now(open_before, before, now.trace.drawing)
+            left = open_doubts(now, ()).tolist()
+            self._settled += sum(number not in left for number in there)
+            (index,) = _numbers_now([index], before, now.trace.drawing)
         else:  # it can't be decided now
             self._skipped.add(index)
         return self._go_on(context, index)
@@ -115,8 +134,15 @@ class INVOLUTE_OT_review(CardChoice, bpy.types.Operator):
 
         if self.change(context, asked) != {"FINISHED"}:
             return False
+        self._follow(shown_in(context))
         bpy.ops.ed.undo_push(message="Review Junctions")
         return True
+
+    def _follow(self, shown: Shown) -> None:
+        """An answer about a bundle, or a step of undo, made other lines: what numbers they have."""
+        before, self._numbered_in = self._numbered_in, shown.trace.drawing
+        self._passed = _numbers_now(self._passed, before, self._numbered_in)
+        self._skipped = set(_numbers_now(self._skipped, before, self._numbered_in))
 
     def _go_on(self, context: bpy.types.Context, passed: int) -> set[str]:
         self._passed.append(passed)
@@ -149,6 +175,13 @@ class INVOLUTE_OT_review(CardChoice, bpy.types.Operator):
             long=int((shown.table.cost[left] > long).sum()),
             settled=self._settled,
         )
+
+
+def _numbers_now(numbers: Iterable[int], before: Drawing, now: Drawing) -> list[int]:
+    """The numbers that places have after a change; -1 = an answer made other lines there."""
+    from ...engine.decisions import number_in
+
+    return [number if number < 0 else number_in(now, before, number) for number in numbers]
 
 
 def open_doubts(shown: Shown, passed: object) -> np.ndarray:

@@ -140,18 +140,24 @@ class INVOLUTE_OT_trace(JobOperator, ChosenFiles, PlacingOptions, TraceOptions, 
             self.report({"WARNING"}, message("There are no lines in the picture."))
             return
         junctions = sum(len(drawing.junctions) for drawing in drawings)
+        bundles = sum(len(drawing.bundles) for drawing in drawings)
         doubtful = sum(len(drawing.doubtful) for drawing in drawings)
         seconds = sum(sum(drawing.seconds.values()) for drawing in drawings)
-        self.report(
-            {"INFO"},
-            message(
-                "{strokes} strokes, {junctions} junctions ({doubtful} doubtful), {seconds:.1f} s",
-                strokes=strokes,
-                junctions=junctions,
-                doubtful=doubtful,
-                seconds=seconds,
-            ),
+        counts = {"strokes": strokes, "junctions": junctions, "doubtful": doubtful}
+        said = message(
+            "{strokes} strokes, {junctions} junctions ({doubtful} doubtful), {seconds:.1f} s",
+            **counts,
+            seconds=seconds,
         )
+        if bundles:
+            said = message(
+                "{strokes} strokes, {junctions} junctions and {bundles} bundles "
+                "({doubtful} doubtful), {seconds:.1f} s",
+                **counts,
+                bundles=bundles,
+                seconds=seconds,
+            )
+        self.report({"INFO"}, said)
 
     def _write(self, context: bpy.types.Context, done: Sequence[TracedSource]) -> None:
         """Whatever the artist did meanwhile, what was traced gets a place."""

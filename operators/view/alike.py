@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .picking import near_part
+from .picking import is_bundle, near_part
 
 if TYPE_CHECKING:
     from ...engine import Drawing, Junction
@@ -26,6 +26,8 @@ _REACH = 15.0  # px; over which a direction is measured
 
 def decided_alike(drawing: Drawing, index: int, pairs: Sequence[Pair]) -> Drawing:
     """The drawing with one junction decided, and all that are open and look like it likewise."""
+    if is_bundle(drawing, drawing.asked(index)):
+        return drawing.reroute(index, pairs)
     for number, ways in alike(drawing, index, pairs):
         drawing = drawing.reroute(number, ways)
     return drawing.reroute(index, pairs)

@@ -20,9 +20,10 @@ _tables: OrderedDict[tuple[str, bytes], JunctionTable] = OrderedDict()
 
 @dataclass(frozen=True, eq=False)
 class JunctionTable:
-    """positions: (J, 2) px, NaN where the artist left no stroke. degree: (J,) int.
+    """A row for each junction, corner and bundle, by its number; corners are listed nowhere.
 
-    doubt: (J,) in [0, 1]. locked: (J,) bool. cost: (J,) px of stroke at risk.
+    positions: (J, 2) px, NaN for corners and where the artist left no stroke. degree: (J,) int, of
+    a bundle 2. doubt: (J,) in [0, 1]. locked: (J,) bool. cost: (J,) px of stroke at risk.
     doubtful: (J,) bool, see `Drawing.doubtful`.
     """
 
@@ -40,25 +41,37 @@ class JunctionTable:
         Args:
             halves: first half-branches of the strokes that are there; None = all are.
         """
-        graph, routing = drawing.graph, drawing.routing
-        positions = graph.vertices[graph.junctions].astype(np.float32)
+        graph, bundles = drawing.graph, drawing.bundles
+        junctions = graph.vertices[graph.junctions].astype(np.float32)
         if halves is not None:
-            positions[~_passed(drawing, halves)] = np.nan
+            junctions[~_passed(drawing, halves)] = np.nan
+        none = np.zeros(len(graph.corners), np.float32)
+        between = np.array([b.position for b in bundles], np.float32).reshape(-1, 2)
+        positions = np.concatenate([junctions, np.full((len(none), 2), np.nan), between])
+        doubts = drawing.doubts, none, [b.doubt for b in bundles]
+        locked = drawing.routing.locked, np.array([b.locked for b in bundles], bool)
         return JunctionTable(
-            positions,
-            graph.degrees[graph.junctions],
-            drawing.doubts.astype(np.float32),
-            routing.locked[: len(positions)],
-            drawing.costs,
+            positions.astype(np.float32),
+            np.concatenate([graph.degrees[graph.places], np.full(len(bundles), 2)]),
+            np.concatenate(doubts).astype(np.float32),
+            np.concatenate(locked),
+            np.concatenate([drawing.costs, none, drawing.bundle_costs]),
             np.isin(np.arange(len(positions)), drawing.doubtful),
         )
 
     def __len__(self) -> int:
         return len(self.doubt)
 
+    @property
+    def count(self) -> int:
+        """How many junctions and bundles there are."""
+        corners = (self.degree == 2) & np.isnan(self.positions[:, 0])
+        return len(self) - int(corners.sum())
+
     def at_least(self, certainty: float) -> Array:
         """(J,) bool: not locked, and the routing in force is that probable."""
-        return ~self.locked & (1.0 - self.doubt >= certainty)
+        there = np.isfinite(self.positions[:, 0])
+        return there & ~self.locked & (1.0 - self.doubt >= certainty)
 
     def listed(
         self, order: str = "DOUBT", doubtful: bool = False, degree: int = 0, unlocked: bool = False
@@ -69,7 +82,7 @@ class JunctionTable:
             order: "COST" = where a wrong answer changes most first; "DOUBT" = the most doubtful
                 first; "PLACE" = in reading order.
             doubtful: leave out those that are certain or change little.
-            degree: 3, 4, or 5 for five and more; 0 = any.
+            degree: 3, 4, or 5 for five and more; 2 = bundles; 0 = any.
             unlocked: leave out what the user has fixed.
         """
         keep = np.isfinite(self.positions[:, 0])

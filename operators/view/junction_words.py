@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..language import label
+from .picking import is_bundle
 
 if TYPE_CHECKING:
-    from ...engine import Drawing, Junction
+    from ...engine import Bundle, Drawing, Junction
 
 _ARROWS = "→↘↓↙←↖↑↗"  # clockwise, y down
 _REACH = 12.0  # px; how far out a half-branch's direction is looked at
@@ -46,6 +47,13 @@ def sentence(names: dict[int, str], pairs: Iterable[tuple[int, int]]) -> str:
         end = "{lines} ends" if len(loose) == 1 else "{lines} end"
         joined.append(label(end, lines=" ".join(loose)))
     return ", ".join(joined)
+
+
+def in_words(drawing: Drawing, place: Junction | Bundle, pairs: Iterable[tuple[int, int]]) -> str:
+    """What is joined at a junction, or whether the strokes of a bundle are one line."""
+    if is_bundle(drawing, place):
+        return label("One line") if list(pairs) else label("Two lines")
+    return sentence(letters(drawing, place), pairs)
 
 
 def percent(probability: float) -> str:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 
 from .card_layout import Card, free_part, layout
-from .picking import distance_to_line, near_part, nearest, project, unproject
+from .picking import distance_to_line, lines_at, near_part, nearest, project, unproject
 from .view_state import Shown, traced_in
 
 if TYPE_CHECKING:
@@ -81,7 +81,7 @@ def end_under(context: bpy.types.Context, mouse: Mouse) -> tuple[Shown, int] | N
 
 
 def junction_under(context: bpy.types.Context, mouse: Mouse) -> tuple[Shown, int] | None:
-    """The nearest junction; the active object's count first."""
+    """The nearest junction or bundle; the active object's count first."""
     radius = _JUNCTION_RADIUS * context.preferences.system.ui_scale
     for shown in traced_in(context):
         found = nearest(places_on_screen(context, shown, shown.table.positions), mouse, radius)
@@ -96,8 +96,9 @@ def halves_under(context: bpy.types.Context, mouse: Mouse) -> tuple[Shown, dict[
     for shown in traced_in(context):
         places = places_on_screen(context, shown, shown.table.positions)
         distance = np.nan_to_num(np.linalg.norm(places - mouse, axis=1), nan=np.inf)
-        around = np.argsort(distance)[:_NEIGHBORS]
-        junctions = [shown.trace.drawing.junctions[k] for k in around]
+        every = shown.trace.drawing.junctions
+        around = np.argsort(distance[: len(every)])[:_NEIGHBORS]
+        junctions = [every[k] for k in around]
         near = {}
         for half in (half for junction in junctions for half in junction.half_branches):
             line = places_on_screen(context, shown, near_part(shown.trace.drawing, half))
@@ -132,7 +133,7 @@ def cards_of(context: bpy.types.Context, shown: Shown) -> tuple[list[Card], floa
     if not np.isfinite(anchor).all():
         anchor = (region.width / 2, region.height / 2)
     scale = context.preferences.system.ui_scale
-    parts = [near_part(shown.trace.drawing, half) for half in junction.half_branches]
+    parts = lines_at(shown.trace.drawing, junction)
     lines = places_on_screen(context, shown, np.concatenate(parts))
     free = free_part_of(context)
     return layout(len(junction.alternatives), tuple(anchor), free, scale, lines)

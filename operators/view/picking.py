@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from ...engine import Drawing
+    from ...engine import Bundle, Drawing, Junction
 
 Array = np.ndarray
 
@@ -97,6 +97,18 @@ def nearest_pair(
         if a != b and vertex[a] == vertex[b]
     ]
     return min(meeting)[1:] if meeting else None
+
+
+def is_bundle(drawing: Drawing, place: Junction | Bundle) -> bool:
+    """Is it about pencil strokes beside each other, and not about lines that meet?"""
+    return place.index >= len(drawing.graph.places)
+
+
+def lines_at(drawing: Drawing, place: Junction | Bundle) -> list[Array]:
+    """(N, 2) px each: the lines that a junction or a bundle is about, near it."""
+    if is_bundle(drawing, place):
+        return list(drawing.parts_of(place))
+    return [near_part(drawing, half) for half in place.half_branches]
 
 
 def near_part(drawing: Drawing, half: int, reach: float = REACH, share: float = 0.5) -> np.ndarray:

@@ -23,7 +23,7 @@ from ..grease_pencil.core.pixel_map import PixelMap
 from .junction_table import JunctionTable, table_of
 
 if TYPE_CHECKING:
-    from ...engine import Junction
+    from ...engine import Bundle, Junction
 
 
 CERTAIN = 80.0  # percent; of scans a sixth of the junctions, and nine in ten of them are right
@@ -90,6 +90,7 @@ class INVOLUTE_PG_view(bpy.types.PropertyGroup):
         description="How many lines meet",
         items=[
             ("0", "Any", "Any number of lines"),
+            ("2", "1–2", "Pencil strokes beside each other: one line or two"),
             ("3", "3", "Three lines meet"),
             ("4", "4", "Four lines meet"),
             ("5", "5+", "Five or more lines meet"),
@@ -123,12 +124,12 @@ class Shown:
         return state.pixel_map_at(self.object.data, self.frame, self.trace)
 
     @property
-    def junction(self) -> Junction | None:
-        """The current junction."""
+    def junction(self) -> Junction | Bundle | None:
+        """The current junction, or bundle of pencil strokes."""
         index = self.view.junction
         if self.view.key != self.trace.key or not 0 <= index < len(self.table):
             return None
-        return self.trace.drawing.place(index)
+        return self.trace.drawing.asked(index)
 
     @property
     def has_corners(self) -> bool:
@@ -148,7 +149,7 @@ class Shown:
 
     @property
     def world_positions(self) -> np.ndarray:
-        """(J, 3) where the junctions are in the scene."""
+        """(J, 3) where the rows of the table are in the scene; NaN where that has no place."""
         places = self.pixel_map.to_object(self.table.positions)
         matrix = np.array(self.object.matrix_world)
         return places @ matrix[:3, :3].T + matrix[:3, 3]
@@ -162,7 +163,7 @@ def traced_in(context: bpy.types.Context) -> Iterator[Shown]:
             shown = shown_in(context, obj)
         except InvoluteError:
             continue
-        if shown is not None and len(shown.table):
+        if shown is not None and shown.table.count:
             yield shown
 
 

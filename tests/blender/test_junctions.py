@@ -151,7 +151,7 @@ def test_frames_have_their_own_junctions(bpy, part, traced):
     scene = bpy.context.scene
     for frame, count in ((1, 9), (9, 9), (10, 1), (50, 1)):
         scene.frame_set(frame)
-        assert len(shown(bpy, part).table) == count
+        assert shown(bpy, part).table.count == count
     bpy.ops.involute.reroute(junction=0, alternative=1)
     assert len(drawing_of(part, obj, 10).strokes) != len(drawing.strokes)
     assert_same(strokes_in(part, obj, pixel_map, 1), drawing_of(part, obj, 1).strokes)

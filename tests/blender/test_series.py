@@ -142,7 +142,8 @@ class Artist:
         if shown is not None:
             drawing = shown.trace.drawing
             self.part("engine.soundness").check_involution(drawing.graph, drawing.routing.partner)
-            assert shown.world_positions.shape == (len(drawing.junctions), 3)
+            count = len(drawing.graph.places) + len(drawing.bundles)
+            assert shown.world_positions.shape == (count, 3)
         places = [np.zeros((0, 3))]
         for obj in self.objects:
             for cel in self.part("operators.grease_pencil.cels").all_cels(obj.data):

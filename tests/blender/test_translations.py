@@ -13,7 +13,16 @@ ROOT = Path(__file__).resolve().parents[2]
 SOURCES = sorted([*ROOT.glob("ui/**/*.py"), *ROOT.glob("operators/**/*.py")])
 LANGUAGES = ("german", "french", "japanese")
 OUTSIDE = ("blend_file.py", "german.py", "french.py", "japanese.py")  # the command line; tables
-SAME = {"", "3", "4", "5+", "involute", "3D View", "Grease Pencil"}  # of these there is no German
+SAME = {
+    "",
+    "1–2",
+    "3",
+    "4",
+    "5+",
+    "involute",
+    "3D View",
+    "Grease Pencil",
+}  # of these there is no German
 _BLENDERS = {"Name", "File Path", "Filepath used for importing the file"}  # it translates them
 _SEEN = {"name", "description", "text", "heading"}
 _TOLD = ("label", "message", "InvoluteError", "_color")

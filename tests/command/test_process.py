@@ -270,6 +270,20 @@ def test_told_to_end_it_leaves_nothing(number, wait, tmp_path):
         assert Drawing.load(path).strokes
 
 
+def test_told_to_end_while_python_runs_a_text_it_ends_in_its_own_way(tmp_path):
+    """As while a dataclass is made: Python would kill itself, although it was caught."""
+    (tmp_path / "ended.py").write_text(
+        "import os, signal, sys\n"
+        "from involute.command import cli\n"
+        "cli._run = lambda *_: exec('os.kill(os.getpid(), signal.SIGTERM)\\nwhile True: pass')\n"
+        "sys.exit(cli.main([]))\n"
+    )
+    command = [sys.executable, "-m", "ended"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=60)
+    assert (done.returncode, done.stdout) == (cli.STOPPED, "")
+    assert re.fullmatch(r"involute: Stopped; .*\n", done.stderr)
+
+
 def test_whatever_a_library_makes_of_it_is_being_stopped(monkeypatch, capsys):
     """OpenCV says that NumPy failed when it is interrupted while it is loaded."""
 

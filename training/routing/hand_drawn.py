@@ -11,6 +11,7 @@ from involute.engine.arrays.ragged import along, arc
 
 from ...synthesis.composed_pages import Library, loosened
 from ...synthesis.held_out_pages import endless
+from ...synthesis.line_art import pieces
 from ...synthesis.pen_lifts import Habit, lifted
 
 Array = np.ndarray
@@ -71,6 +72,4 @@ def _inside(line: Array, low: Array, high: Array) -> list[Array]:
     way = arc(line)[-1]
     dense = along(line, np.linspace(0, way, max(2, round(way) + 1)))
     inside = ((dense >= low) & (dense <= high)).all(1)
-    cuts = np.flatnonzero(np.diff(inside)) + 1
-    pieces = np.split(dense, cuts)[0 if inside[0] else 1 :: 2]
-    return [piece for piece in pieces if len(piece) > _LEAST]
+    return [piece for piece in pieces(dense, inside) if len(piece) > _LEAST]

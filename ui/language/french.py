@@ -68,6 +68,16 @@ TEXTS = {
     "{strokes:,} strokes, {solids:,} solids, {seconds:.1f} s": (
         "{strokes:,} traits, {solids:,} aplats, {seconds:.1f} s"
     ),
+    "{junctions:,} junctions, {bundles:,} bundles, {doubtful:,} doubtful": (
+        "{junctions:,} jonctions, {bundles:,} faisceaux, {doubtful:,} douteux"
+    ),
+    (
+        "{strokes} strokes, {junctions} junctions and {bundles} bundles "
+        "({doubtful} doubtful), {seconds:.1f} s"
+    ): (
+        "{strokes} traits, {junctions} jonctions et {bundles} faisceaux "
+        "({doubtful} douteux), {seconds:.1f} s"
+    ),
     "{junctions:,} junctions, {doubtful:,} doubtful": (
         "{junctions:,} jonctions, {doubtful:,} douteuses"
     ),
@@ -415,6 +425,12 @@ TEXTS = {
     "Page of {count}": "Page sur {count}",
     "{some} of {all}": "{some} sur {all}",
     "{count} lines": "{count} lignes",
+    "Bundle": "Faisceau",
+    "One line": "Une ligne",
+    "Two lines": "Deux lignes",
+    "Pencil strokes beside each other: one line or two": (
+        "Traits de crayon côte à côte : une ligne ou deux"
+    ),
     "No junction passes the filters": "Aucune jonction ne passe les filtres",
     "No junction passes the filters.": "Aucune jonction ne passe les filtres.",
     "Previous": "Précédente",
@@ -784,6 +800,15 @@ TEXTS = {
     ),
     "Taken for a rough drawing: its {0} pencil strokes say {1} lines.": (
         "Pris pour un brouillon : ses {0} traits de crayon disent {1} lignes."
+    ),
+    "No pencil strokes of these lines run beside each other.": (
+        "Aucun trait de crayon de ces lignes ne court à côté d’un autre."
+    ),
+    "The pencil strokes of a bundle are one line or two.": (
+        "Les traits de crayon d’un faisceau font une ligne ou deux."
+    ),
+    "This drawing does not know what its lines were made of; trace the picture again.": (
+        "Ce dessin ne sait pas de quoi ses lignes sont faites ; vectorisez l’image à nouveau."
     ),
     "This stroke ends there already.": "Ce trait s'arrête déjà là.",
     "To join, two different ends of strokes are needed.": (

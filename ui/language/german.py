@@ -72,6 +72,16 @@ TEXTS = {
     "{strokes:,} strokes, {solids:,} solids, {seconds:.1f} s": (
         "{strokes:,} Striche, {solids:,} Flächen, {seconds:.1f} s"
     ),
+    "{junctions:,} junctions, {bundles:,} bundles, {doubtful:,} doubtful": (
+        "{junctions:,} Kreuzungen, {bundles:,} Bündel, {doubtful:,} zweifelhaft"
+    ),
+    (
+        "{strokes} strokes, {junctions} junctions and {bundles} bundles "
+        "({doubtful} doubtful), {seconds:.1f} s"
+    ): (
+        "{strokes} Striche, {junctions} Kreuzungen und {bundles} Bündel "
+        "({doubtful} zweifelhaft), {seconds:.1f} s"
+    ),
     "{junctions:,} junctions, {doubtful:,} doubtful": (
         "{junctions:,} Kreuzungen, {doubtful:,} zweifelhaft"
     ),
@@ -432,6 +442,12 @@ TEXTS = {
     "Page of {count}": "Seite von {count}",
     "{some} of {all}": "{some} von {all}",
     "{count} lines": "{count} Linien",
+    "Bundle": "Bündel",
+    "One line": "Eine Linie",
+    "Two lines": "Zwei Linien",
+    "Pencil strokes beside each other: one line or two": (
+        "Bleistiftstriche nebeneinander: eine Linie oder zwei"
+    ),
     "No junction passes the filters": "Keine Kreuzung passt zu den Filtern",
     "No junction passes the filters.": "Keine Kreuzung passt zu den Filtern.",
     "Previous": "Vorige",
@@ -822,6 +838,16 @@ TEXTS = {
     ),
     "Taken for a rough drawing: its {0} pencil strokes say {1} lines.": (
         "Für eine Rohzeichnung gehalten: ihre {0} Bleistiftstriche sagen {1} Linien."
+    ),
+    "No pencil strokes of these lines run beside each other.": (
+        "Keine Bleistiftstriche dieser Linien laufen nebeneinander."
+    ),
+    "The pencil strokes of a bundle are one line or two.": (
+        "Die Bleistiftstriche eines Bündels sind eine Linie oder zwei."
+    ),
+    "This drawing does not know what its lines were made of; trace the picture again.": (
+        "Diese Zeichnung weiß nicht, woraus ihre Linien gemacht sind; "
+        "ziehe das Bild noch einmal nach."
     ),
     "This stroke ends there already.": "Dieser Strich endet dort schon.",
     "To join, two different ends of strokes are needed.": (

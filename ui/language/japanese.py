@@ -68,6 +68,16 @@ TEXTS = {
     "{strokes:,} strokes, {solids:,} solids, {seconds:.1f} s": (
         "ストローク {strokes:,}、ベタ {solids:,}、{seconds:.1f} 秒"
     ),
+    "{junctions:,} junctions, {bundles:,} bundles, {doubtful:,} doubtful": (
+        "交点 {junctions:,}、束 {bundles:,}、疑わしいもの {doubtful:,}"
+    ),
+    (
+        "{strokes} strokes, {junctions} junctions and {bundles} bundles "
+        "({doubtful} doubtful), {seconds:.1f} s"
+    ): (
+        "ストローク {strokes}、交点 {junctions}、束 {bundles}"
+        "（疑わしいもの {doubtful}）、{seconds:.1f} 秒"
+    ),
     "{junctions:,} junctions, {doubtful:,} doubtful": (
         "交点 {junctions:,}、疑わしい交点 {doubtful:,}"
     ),
@@ -409,6 +419,12 @@ TEXTS = {
     "Page of {count}": "ページ (全 {count})",
     "{some} of {all}": "{all} 中 {some}",
     "{count} lines": "{count} 本の線",
+    "Bundle": "束",
+    "One line": "一本の線",
+    "Two lines": "二本の線",
+    "Pencil strokes beside each other: one line or two": (
+        "並んだ鉛筆のストローク：一本の線か二本の線か"
+    ),
     "No junction passes the filters": "条件に合う交点がありません",
     "No junction passes the filters.": "条件に合う交点がありません。",
     "Previous": "前へ",
@@ -750,6 +766,15 @@ TEXTS = {
     ),
     "Taken for a rough drawing: its {0} pencil strokes say {1} lines.": (
         "ラフと判断しました。鉛筆の {0} ストロークは {1} 本の線を表しています。"
+    ),
+    "No pencil strokes of these lines run beside each other.": (
+        "これらの線の鉛筆のストロークは並んでいません。"
+    ),
+    "The pencil strokes of a bundle are one line or two.": (
+        "束の鉛筆のストロークは、一本か二本の線です。"
+    ),
+    "This drawing does not know what its lines were made of; trace the picture again.": (
+        "この描画には線の元になったものが残っていません。画像をもう一度トレースしてください。"
     ),
     "This stroke ends there already.": ("このストロークはすでにそこで終わっています。"),
     "To join, two different ends of strokes are needed.": ("つなぐには異なる2つの端が必要です。"),

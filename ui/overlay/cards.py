@@ -1,5 +1,7 @@
 """Letters at the lines of the current junction; its alternatives as cards with small sketches.
 
+A bundle of pencil strokes has two: one line, two lines.
+
 A redraw without change makes nothing: the cards are batches in pixels from the lower left corner
 of the first one, made once for a junction, its routing and the card that is pointed at.
 """
@@ -17,7 +19,7 @@ import numpy as np
 from gpu_extras.batch import batch_for_shader
 
 from ...operators.view.card_layout import Card
-from ...operators.view.junction_words import letters, percent, sentence
+from ...operators.view.junction_words import in_words, percent
 from ...operators.view.on_screen import cards_of, places_on_screen
 from .colors import STROKES
 from .drawn_batches import kept
@@ -84,6 +86,8 @@ def draw_trail(places: Array) -> None:
 def _draw_letters(context: bpy.types.Context, shown: Shown, state: tuple) -> None:
     scale = state[-1]
     named = kept(("letters", *state), lambda: _labels(shown, scale))
+    if not named:
+        return
     places = places_on_screen(context, shown, np.array([place for _, place in named]))
     disc = kept(("disc", scale), lambda: _disc(_BADGE * scale))
     shader = gpu.shader.from_builtin("UNIFORM_COLOR")
@@ -137,8 +141,7 @@ def _labels(shown: Shown, scale: float) -> list[tuple[_Text, tuple[float, float]
 
 
 def _make(row: Sequence[Card], shown: Shown, scale: float) -> _Cards:
-    junction = shown.junction
-    names = letters(shown.trace.drawing, junction)
+    drawing, junction = shown.trace.drawing, shown.junction
     areas, edges, bold, sketches, texts = [], [], [], [], []
     for number, (card, way) in enumerate(zip(row, junction.alternatives, strict=True)):
         card = card._replace(x=card.x - row[0].x, y=card.y - row[0].y)
@@ -151,7 +154,7 @@ def _make(row: Sequence[Card], shown: Shown, scale: float) -> _Cards:
         left, room = card.x + 8 * scale, card.width - 16 * scale
         top = card.y + card.height - 18 * scale
         texts.append(_Text(percent(way.probability), left, top, 13 * scale))
-        words = sentence(names, way.pairs)
+        words = in_words(drawing, junction, way.pairs)
         size = _fitting(words, 10 * scale, room)
         texts.append(_Text(words, left, card.y + 8 * scale, size))
     lines = (scale, edges), (2 * scale, bold), (3 * scale, sketches)

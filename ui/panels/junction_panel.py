@@ -24,7 +24,8 @@ from ...operators.junctions.reroute import INVOLUTE_OT_reroute
 from ...operators.junctions.review import INVOLUTE_OT_review
 from ...operators.junctions.separate import INVOLUTE_OT_separate
 from ...operators.language import label
-from ...operators.view.junction_words import angle, arrow, letters, percent, sentence
+from ...operators.view.junction_words import angle, arrow, in_words, letters, percent
+from ...operators.view.picking import is_bundle
 from ...operators.view.view_state import Shown, shown_in
 from .sidebar import OfDrawing
 
@@ -71,7 +72,7 @@ class INVOLUTE_PT_junctions(OfDrawing, bpy.types.Panel):
 
 
 class INVOLUTE_PT_junction(OfDrawing, bpy.types.Panel):
-    """The current junction: in words, its alternatives, by hand."""
+    """The current junction or bundle: in words, its alternatives, by hand."""
 
     bl_label = "Current Junction"
 
@@ -84,14 +85,17 @@ class INVOLUTE_PT_junction(OfDrawing, bpy.types.Panel):
         """The junction in words, its lock, its alternatives."""
         shown = shown_in(context)
         layout, junction = self.layout, shown.junction
-        names = letters(shown.trace.drawing, junction)
+        drawing = shown.trace.drawing
         row = layout.row()
-        count = label("{count} lines", count=junction.degree)
-        row.label(text=f"{count}: {sentence(names, junction.pairs)}", translate=False)
+        bundle = is_bundle(drawing, junction)
+        kind = label("Bundle") if bundle else label("{count} lines", count=junction.degree)
+        said = in_words(drawing, junction, junction.pairs)
+        row.label(text=f"{kind}: {said}", translate=False)
         lock = "LOCKED" if junction.locked else "UNLOCKED"
         row.operator(INVOLUTE_OT_lock.bl_idname, text="", icon=lock).junction = junction.index
-        _alternatives(layout, shown, names)
-        _by_hand(layout, shown, names)
+        _alternatives(layout, shown)
+        if not bundle:
+            _by_hand(layout, shown, letters(drawing, junction))
 
 
 def _filters(layout: bpy.types.UILayout, shown: Shown) -> None:
@@ -147,7 +151,8 @@ def _list(layout: bpy.types.UILayout, shown: Shown, listed: np.ndarray) -> None:
     for index in listed[page * _ROWS : (page + 1) * _ROWS].tolist():
         row = box.row(align=True)
         is_locked = bool(shown.table.locked[index])
-        lines = label("{count} lines", count=shown.table.degree[index])
+        degree = shown.table.degree[index]
+        lines = label("Bundle") if degree == 2 else label("{count} lines", count=degree)
         certain = percent(1.0 - float(shown.table.doubt[index]))
         button = row.operator(
             INVOLUTE_OT_go_to_junction.bl_idname,
@@ -158,13 +163,13 @@ def _list(layout: bpy.types.UILayout, shown: Shown, listed: np.ndarray) -> None:
         )
         button.junction = index
     row = layout.row(align=True)
-    count = label("{some} of {all}", some=len(listed), all=len(shown.table))
+    count = label("{some} of {all}", some=len(listed), all=shown.table.count)
     row.label(text=count, translate=False)
     row.prop(shown.view, "list_page", text=label("Page of {count}", count=pages), translate=False)
 
 
-def _alternatives(layout: bpy.types.UILayout, shown: Shown, names: dict[int, str]) -> None:
-    junction = shown.junction
+def _alternatives(layout: bpy.types.UILayout, shown: Shown) -> None:
+    drawing, junction = shown.trace.drawing, shown.junction
     column = layout.column(align=True)
     for number, way in enumerate(junction.alternatives):
         row = column.row(align=True)
@@ -177,7 +182,7 @@ def _alternatives(layout: bpy.types.UILayout, shown: Shown, names: dict[int, str
         eye.alternative = number
         button = row.operator(
             INVOLUTE_OT_reroute.bl_idname,
-            text=f"{percent(way.probability)}   {sentence(names, way.pairs)}",
+            text=f"{percent(way.probability)}   {in_words(drawing, junction, way.pairs)}",
             depress=way.pairs == junction.pairs,
             translate=False,
         )

@@ -144,9 +144,16 @@ class INVOLUTE_PT_summary(Sidebar, bpy.types.Panel):
         )
         found = label(
             "{junctions:,} junctions, {doubtful:,} doubtful",
-            junctions=len(shown.table),
+            junctions=shown.table.count,
             doubtful=len(drawing.doubtful),
         )
+        if drawing.bundles:
+            found = label(
+                "{junctions:,} junctions, {bundles:,} bundles, {doubtful:,} doubtful",
+                junctions=len(drawing.junctions),
+                bundles=len(drawing.bundles),
+                doubtful=len(drawing.doubtful),
+            )
         for text in (drawn, found):
             column.label(text=text, translate=False)
         for icon, sentences in (("ERROR", drawing.warnings), ("INFO", drawing.notes)):

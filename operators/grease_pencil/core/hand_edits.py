@@ -6,7 +6,7 @@ that was deleted stays deleted.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -51,13 +51,20 @@ class HandEdits:
 
 
 def hand_edits(
-    old: Drawing, new: Drawing, cels: Sequence[Curves], key: int, pixel_map: PixelMap
+    old: Drawing,
+    new: Drawing,
+    cels: Sequence[Curves],
+    key: int,
+    pixel_map: PixelMap,
+    same: Mapping[int, int] | None = None,
 ) -> HandEdits:
     """What stays of the old drawing's strokes, and which new ones it stands for.
 
     Args:
         cels: what the layers show. key: of the old trace.
+        same: old strokes, and new ones that are just like them: these stay untouched or not.
     """
+    same = same or {}
     untouched = untouched_strokes(old, cels, key, pixel_map)
     owner = {int(h) >> 1: i for i, s in enumerate(old.strokes) for h in s.branches}
     there: dict[int, list[tuple[int, int]]] = {}
@@ -67,16 +74,27 @@ def hand_edits(
             index = owner.get((int(cel.mark(HALF)[curve]) - 1) >> 1)
             if index is not None:
                 there.setdefault(index, []).append((number, curve))
-    changed = [i for i in range(len(old.strokes)) if i not in untouched]
-    stands_for = _same_lines(old, new, changed)
+    changed = [i for i in range(len(old.strokes)) if i not in untouched and i not in same]
+    stands_for = {**same, **_same_lines(old, new, changed, set(same.values()))}
     edits = HandEdits([[] for _ in cels])
-    for index in changed:
+    for index in [*same, *changed]:
         chosen = stands_for.get(index)
         if chosen is not None:
             edits.left_out.add(chosen)
         for number, curve in there.get(index, ()):
             edits.kept[number].append(_kept(old, new, index, chosen, cels[number], curve))
     return edits
+
+
+def same_strokes(old: Drawing, new: Drawing) -> dict[int, int]:
+    """Strokes of the old drawing, and those of the new one that are just like them."""
+    there = {_content(stroke): number for number, stroke in enumerate(new.strokes)}
+    found = {n: there.get(_content(stroke), -1) for n, stroke in enumerate(old.strokes)}
+    return {before: now for before, now in found.items() if now >= 0}
+
+
+def _content(stroke: Stroke) -> tuple[bytes, bytes, bool]:
+    return stroke.points.tobytes(), stroke.widths.tobytes(), stroke.closed
 
 
 def _kept(
@@ -87,15 +105,19 @@ def _kept(
     if chosen is None:
         return Kept(curve, 0, along)
     before, after = old.strokes[index], new.strokes[chosen]
+    if _content(before) == _content(after):
+        return Kept(curve, int(after.branches[0]) + 1, along)
     places = places_along(corners(before), along)
     return Kept(curve, int(after.branches[0]) + 1, _lengths_on(after, places))
 
 
-def _same_lines(old: Drawing, new: Drawing, changed: Sequence[int]) -> dict[int, int]:
-    """Old stroke -> the new one that runs along the same line, all along."""
+def _same_lines(
+    old: Drawing, new: Drawing, changed: Sequence[int], taken: set[int]
+) -> dict[int, int]:
+    """Old stroke -> the new one that runs along the same line, all along, and is not taken."""
     pen = 4.0 if old.graph.widths is None else float(np.median(old.graph.widths))
     boxes = np.array([[*s.points.min(0), *s.points.max(0)] for s in new.strokes]).reshape(-1, 4)
-    found, taken = {}, set()
+    found = {}
     for index in changed:
         mine = _places(old.strokes[index])
         low, high = mine.min(0) - _BESIDE * pen, mine.max(0) + _BESIDE * pen
