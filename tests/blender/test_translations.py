@@ -86,7 +86,7 @@ ENGINE = (
         "scan/movie",
     ),
     *("scan/psd", "centerline/backends", "routing/network", "sequence/frames"),
-    *("formats/svg_lines", "centerline/given"),
+    *("formats/svg_lines", "centerline/given", "rough/asking"),
 )
 FOR_PROGRAMS = (
     "Lines that follow each other",
