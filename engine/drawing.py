@@ -19,6 +19,7 @@ from .fidelity import Fidelity, fidelity, warnings
 from .graph.editing import Edits, Step, edited, place_on
 from .ink.known_inks import with_known_inks
 from .rough.asking import cleaned_again, parts_of, questions, with_answers, with_lines
+from .rough.unchanged import unchanged
 from .routing import around, checked_pairs, place_of_pairs, rescored, route, taught
 from .routing.cost import costs
 from .routing.lifting import goes_on
@@ -46,6 +47,7 @@ STROKE_SETTINGS = ("smoothing", "curve", "tolerance")  # change nothing but the 
 # worth a look. On 48 held-out pages (2,952 junctions) 16 % are, and they hold 61 % of the length of
 # stroke that was wrong; as many of the most doubtful ones hold 26 %.
 DOUBTFUL = 20.0
+_ROUGH = "Taken for a rough drawing"  # so a note about it begins
 NOT_KEPT = "This drawing does not know what its lines were made of; trace the picture again."
 # What a px is worth over which a bundle is in doubt, in px of stroke at a junction: so that as many
 # are asked. On 16 held-out rough pages (2,769 bundles, 15 % of them wrong) 22 % of the bundles are,
@@ -161,7 +163,6 @@ class Drawing:
             InvoluteError: the drawing is a clean one, or it does not know what it was made of.
         """
         from .decisions import decided_again
-        from .sequence.follow import follow
 
         pencil = self.pencil
         if pencil is None or pencil.beside is None:
@@ -169,25 +170,34 @@ class Drawing:
         made = cleaned_again(pencil.beside, answers, self.settings, self.scale, self.size)
         page = Scan(np.zeros((1, 1), np.float32), None, self.scale, self.size, 1.0)
         lines = Drawing.from_routing(made.graph, made.routing, page, self.settings)
-        strokes = with_known_inks(lines.strokes, list(dict.fromkeys(s.color for s in self.strokes)))
-        old, new = (_note(len(pencil.strokes), len(d.strokes)) for d in (self, lines))
+        said = _note(len(pencil.strokes), len(lines.strokes))
         cleaned = replace(
             self,
             graph=lines.graph,
             routing=lines.routing,
-            strokes=follow(self.strokes, strokes) if strokes else (),
+            strokes=lines.strokes,
             page=lines.page,
             edits=None,
             region_colors=None,
             pencil=replace(pencil, said=made.said, answers=answers),
-            notes=tuple(new if note == old else note for note in self.notes),
+            notes=tuple(said if note.startswith(_ROUGH) else note for note in self.notes),
         )
         if self.region_colors is not None:
             from .fills.region_colors import same_colors
 
             colors = same_colors(self.regions, self.region_colors, cleaned.regions)
             cleaned = replace(cleaned, region_colors=colors)
-        return decided_again(self, cleaned).drawing
+        return decided_again(self, cleaned).drawing._drawn_like(self)
+
+    def _drawn_like(self, before: Drawing) -> Drawing:
+        """The same lines, drawn as they were in another drawing wherever they are there, too."""
+        from .sequence.follow import follow
+
+        if not self.strokes:
+            return self
+        inks = list(dict.fromkeys(stroke.color for stroke in before.strokes))
+        strokes = follow(before.strokes, with_known_inks(self.strokes, inks))
+        return replace(self, strokes=unchanged(before.strokes, strokes))
 
     def pencil_of(self, stroke: int) -> tuple[int, ...]:
         """The numbers of the pencil strokes that say a stroke, ascending; none for a clean drawing.

@@ -22,7 +22,7 @@ _PARTS = {
     "quickdraw_simplified": 0.5,
     "arcticons": 0.5,
 }
-_SIDE = 1024  # px of a figure
+SIDE = 1024  # px of a figure
 _PART = (0.25, 0.8)  # of that, the longer side of a part
 _CLOSED = 0.03  # of the length of a line, the gap between its ends
 _SHORTEST = 14.0  # px of a line that is left of one hidden
@@ -31,7 +31,7 @@ _LEAST_HIDES = 0.02  # of the square of a part's side that it must cover to hide
 
 
 def figure(rng: Rng, library: Library) -> Strokes:
-    """The lines of one figure, (N, 2) px each, with its longer side of _SIDE px."""
+    """The lines of one figure, (N, 2) px each, with its longer side of SIDE px."""
     fewest, most = _LINES
     while True:
         lines = _laid(rng, library, int(rng.integers(2, 9)))
@@ -40,7 +40,7 @@ def figure(rng: Rng, library: Library) -> Strokes:
             continue
         low = np.min([line.min(0) for line in lines], 0)
         side = float((np.max([line.max(0) for line in lines], 0) - low).max())
-        return [((line - low) * _SIDE / side).astype(np.float32) for line in lines]
+        return [((line - low) * SIDE / side).astype(np.float32) for line in lines]
 
 
 def _laid(rng: Rng, library: Library, count: int) -> Strokes:
@@ -52,8 +52,8 @@ def _laid(rng: Rng, library: Library, count: int) -> Strokes:
         part = library.pick(rng, str(rng.choice(names, p=weight / weight.sum())))
         if not part:
             continue
-        side = _SIDE * float(np.exp(rng.uniform(*np.log(_PART))))
-        part = transform(part, random_matrix(rng, side), rng.uniform(0.3, 0.7, 2) * _SIDE)
+        side = SIDE * float(np.exp(rng.uniform(*np.log(_PART))))
+        part = transform(part, random_matrix(rng, side), rng.uniform(0.3, 0.7, 2) * SIDE)
         part = wobble(
             rng,
             [resample(line, 3.0) for line in part],
@@ -68,18 +68,18 @@ def _laid(rng: Rng, library: Library, count: int) -> Strokes:
 
 
 def _covered(part: Strokes) -> Array:
-    """(_SIDE * 2, _SIDE * 2) bool, from -_SIDE / 2: what the closed lines of a part hide."""
-    cover = np.zeros((2 * _SIDE, 2 * _SIDE), np.uint8)
+    """(SIDE * 2, SIDE * 2) bool, from -SIDE / 2: what the closed lines of a part hide."""
+    cover = np.zeros((2 * SIDE, 2 * SIDE), np.uint8)
     for line in part:
         gap, length = np.hypot(*(line[0] - line[-1])), np.hypot(*np.diff(line, axis=0).T).sum()
         if gap < _CLOSED * length:
-            cv2.fillPoly(cover, [np.round(line + _SIDE / 2).astype(np.int32)], 1)
+            cv2.fillPoly(cover, [np.round(line + SIDE / 2).astype(np.int32)], 1)
     return cover.astype(bool)
 
 
 def outside(line: Array, cover: Array) -> Strokes:
     """What is seen of a line behind something."""
-    column, row = np.clip(np.round(line + _SIDE / 2).astype(int), 0, len(cover) - 1).T
+    column, row = np.clip(np.round(line + SIDE / 2).astype(int), 0, len(cover) - 1).T
     hidden = cover[row, column]
     if not hidden.any():
         return [line]

@@ -14,6 +14,7 @@ import numpy as np
 
 from . import pencilling
 from .composed_pages import Library
+from .figures import SIDE as FIGURE_SIDE
 from .figures import figure
 from .held_out_pages import endless
 from .line_art import Array, Rng, Strokes, pieces, resample, wobble
@@ -25,13 +26,14 @@ _BEYOND = 40  # px around a window of it, where its lines are cut off unseen
 _SIZE = (0.35, 0.8)  # of a page of the benchmark's size: smaller ones are traced sooner
 # Share of the pages whose lines hide each other, as in cartoons: most of what animators draw.
 _FIGURES = {"sketch": 0.4, "keyframe": 0.75, "clean": 0.4}
-_DENSEST = {"sketch": 8.0, "keyframe": 5.0}  # px between the lines of a page
+_DENSEST = {"sketch": 8.0, "keyframe": 5.0, "animated": 4.0}  # px between the lines of a page
 _PENS = (1.2, 4.5)  # px; width of a pencil at the scale at which pages are traced
 _APART = 2.2  # pens between the lines of a page at least
 _ANGULAR = 0.6  # share of the keyframes whose lines are straight from corner to corner
 _LIFTED = 22.0  # degrees; corners of keyframes at which the pencil may be lifted
 _PRESSED = ((0, 0.5), (0.5, 0.75), (0.75, 2))  # strokes in three layers, from light to dark
 _EVEN = 0.6  # share of the dark ones on which strokes do not darken each other
+_FIGURE = (330.0, 720.0)  # px; the longer side of an animator's figure
 _FIRM = ("ink", "brushpen", "crisp", "crisp", "one bit")  # what a drawing program has for pencils
 
 
@@ -70,13 +72,13 @@ def straightened(rng: Rng, lines: Strokes) -> Strokes:
 
 def any_pen(rng: Rng) -> float:
     """The width of a pencil on a rough page, px."""
-    return float(np.exp(rng.uniform(np.log(1.2), np.log(3.3))))
+    return _log_uniform(rng, 1.2, 3.3)
 
 
 def keyframing(rng: Rng, pen: float) -> Hand:
     """The hand of an animator: sure, nearly single strokes that run on beyond their ends."""
     spread = pen * rng.uniform(0.15, 1.2)
-    length = float(np.exp(rng.uniform(np.log(50), np.log(300))))
+    length = _log_uniform(rng, 50, 300)
     return Hand(
         rng.uniform(1, 2.2), spread, spread * rng.uniform(0.2, 1), length, pen * rng.uniform(1, 5)
     )
@@ -86,7 +88,7 @@ def _animating(rng: Rng, pen: float, spacing: float) -> Hand:
     """As `keyframing`, or a hand that restarts more often and strays more."""
     hand = keyframing(rng, pen)
     if rng.random() < 0.4:
-        length = float(np.exp(rng.uniform(np.log(25), np.log(120))))
+        length = _log_uniform(rng, 25, 120)
         hand = replace(hand, strokes=rng.uniform(1.5, 3.5), length=length)
         hand = replace(hand, spread=pen * rng.uniform(0.5, 1.7), over=pen * rng.uniform(2, 7))
     return replace(hand, spread=min(hand.spread, 0.3 * spacing))
@@ -107,12 +109,48 @@ def sketched(rng: Rng, lines: Strokes, hand: Hand, pen: float, size: int, sure: 
     return _pressed(rng, ink, strokes, press, medium, pen, dark)
 
 
+def animated(rng: Rng, library: Library) -> RoughDrawing:
+    """A whole figure as animators rough it out: small, single strokes, straight from corner to
+    corner, where they stick out, drawn with a firm pen."""
+    lines, size = _figure(rng, library)
+    if rng.random() < 0.8:
+        lines = angular(lines, _log_uniform(rng, 0.6, 3.0))
+    pen = _log_uniform(rng, 1.1, 2.6)
+    spread = pen * _log_uniform(rng, 0.05, 0.6)
+    strokes = rng.uniform(1, 1.6) if rng.random() < 0.7 else rng.uniform(1.3, 2.4)
+    drift, length = spread * rng.uniform(0.2, 1.0), _log_uniform(rng, 40, 300)
+    over, short = pen * _log_uniform(rng, 0.7, 5.0), pen * rng.uniform(0, 1.2)
+    hand = Hand(strokes, spread, drift, length, over, short, rng.uniform(6, 40))
+    firm = (*_FIRM, "fineliner", "pencil") if rng.random() < 0.75 else pencilling.MEDIA
+    medium = (MEDIA | DIGITAL)[str(rng.choice(firm))]
+    parts = in_pieces(rng, lines, rng.uniform(0.5, 1), rng.uniform(15, 30))
+    ink: Array = np.zeros((size, size), np.float32)
+    if rng.random() < 0.15:
+        ink = _underneath(rng, lines, hand, pen, medium, size)
+    ink = _pressed(rng, ink, *keyed(rng, parts, hand), medium, pen, True)
+    return RoughDrawing(lines, ink, pen, spread)
+
+
+def _figure(rng: Rng, library: Library) -> tuple[Strokes, int]:
+    """The lines of a figure, and the side of a page that it fills, px."""
+    while True:
+        scale = np.float32(_log_uniform(rng, *_FIGURE) / FIGURE_SIDE)
+        lines = [line * scale + np.float32(MARGIN) for line in figure(rng, library)]
+        size = int(np.ceil(np.max([line.max(0) for line in lines]) + MARGIN))
+        if line_spacing(sample(lines, size), size) >= _DENSEST["animated"]:
+            return lines, size
+
+
+def _log_uniform(rng: Rng, low: float, high: float) -> float:
+    return float(np.exp(rng.uniform(np.log(low), np.log(high))))
+
+
 def rough_drawing(rng: Rng, library: Library, kind: str, size: int) -> RoughDrawing:
     """A part of a random drawing that fills a page of size x size px.
 
     kind: "sketch", "keyframe" or "hatched".
     """
-    pen = float(np.exp(rng.uniform(*np.log(_PENS))))
+    pen = _log_uniform(rng, *_PENS)
     sure = kind == "keyframe"
     if kind == "hatched":
         return _patches(rng, int(rng.integers(2, 9)), pen, size)

@@ -13,7 +13,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ..graph.topology import lengths
 from ..routing import Fixed, route
 from ..routing.geometric import tint_score
 from ..settings import Settings
@@ -25,13 +24,8 @@ from .consensus import consensus
 from .meant import meant_lines
 from .redrawn import Bundles
 from .sampled import Sampled, reach_of
+from .telling import ROUGH, Signs
 
-# A page is rough when so much of its length runs beside itself; or less, when lines often run on
-# beyond their ends, too. Held-out pages (training/rough): 38 of 50 rough ones have that, and none
-# of 10 clean ones and 10 of hatching.
-ROUGH, HARDLY = 0.1, 0.018  # share of the length
-OVERSHOT = 0.7  # loose ends that stick out of another line, in 100 pens of length
-_STICKS_OUT = (1.5, 8.0)  # pens; length of such an end
 ONE = 0.5  # probability from which on two strokes mean one line
 _HATCHING = 0.05  # what knows hatching lets less than that pass on no page
 _OWN_WIDTH = 0.35  # quantile of the widths that is a single pencil stroke's: bundles are wider
@@ -42,7 +36,7 @@ class Bundled:
     """Pencil strokes, with the rungs between them and which of these join strokes of one line.
 
     one: (K,) bool, for each rung, on a page that is known to be rough; probability: (K,) of that.
-    told: (K,) bool, the same on a page of which nothing is known.
+    told: (K,) the same probability on a page of which nothing is known.
     named: (N,) bool, samples of which the artist said that they are a line of their own.
     """
 
@@ -53,13 +47,6 @@ class Bundled:
     pen: float
     probability: Array
     named: Array
-
-    @property
-    def share(self) -> float:
-        """Of the length of all strokes, what runs beside another stroke of the same line."""
-        held = np.zeros(len(self.strokes.points), bool)
-        held[self.rungs.a[self.told]] = True
-        return float(held.mean()) if len(held) else 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,8 +72,8 @@ def run_beside(strokes: Sampled, shape: tuple[int, int]) -> Bundled:
     """The same of strokes that are sampled already."""
     pen = max(float(np.median(strokes.width)), 1.0)
     found = rungs(strokes, shape, reach_of(pen))
-    none, unnamed = np.zeros(len(found.a), bool), np.zeros(len(strokes.points), bool)
-    return Bundled(strokes, found, none, none, pen, none.astype(np.float64), unnamed)
+    none, unnamed = np.zeros(len(found.a)), np.zeros(len(strokes.points), bool)
+    return Bundled(strokes, found, none > 0, none, pen, none, unnamed)
 
 
 def bundled(
@@ -109,7 +96,7 @@ def bundled(
     told = grouping.probability(rows, "tells", net)[found.rungs.stretch]
     one = grouping.probability(rows, "same", net)[found.rungs.stretch]
     one = np.minimum(one, told * (ONE / _HATCHING))
-    return replace(found, one=one > ONE, told=told > ONE, probability=one)
+    return replace(found, one=one > ONE, told=told, probability=one)
 
 
 def is_rough(bundles: Bundled, graph: PlanarGraph, settings: Settings) -> bool:
@@ -120,18 +107,10 @@ def is_rough(bundles: Bundled, graph: PlanarGraph, settings: Settings) -> bool:
     """
     if settings.drawing != "auto":
         return settings.drawing == "rough"
-    if bundles.share > ROUGH:
-        return True
-    return bundles.share > HARDLY and overshooting(graph, bundles.pen) > OVERSHOT
-
-
-def overshooting(graph: PlanarGraph, pen: float) -> float:
-    """How many lines run on a little beyond another one, in 100 pens of length."""
-    length = lengths(graph) / pen
-    degree = graph.degrees[graph.ends]
-    least, most = _STICKS_OUT
-    loose = (degree.min(1) == 1) & (degree.max(1) >= 3) & (length > least) & (length < most)
-    return float(100 * loose.sum() / max(length.sum(), 1e-6))
+    if not len(bundles.told):
+        return False
+    signs = Signs.of(bundles.strokes, bundles.rungs, bundles.told, graph, bundles.pen)
+    return signs.may_be_rough and bool(grouping.probability(signs.row, "rough_page")[0] > ROUGH)
 
 
 def redrawn(

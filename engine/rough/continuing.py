@@ -2,7 +2,8 @@
 
 Where bundles meet, nothing is exact: the directions at a junction say less than on a clean page,
 and those farther along the lines more. So the features of the geometric router are read at three
-scales, and a small network makes log-odds of them.
+scales, and a small network makes probabilities of them. A second one has these as well, of all
+pairs around (`around`): what goes on at one place hangs on what does at the next.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from ..routing import geometric, network
 from ..routing.features import FEATURES as OF_PAIRS
 from ..routing.features import pair_features
 from ..values import Array, PlanarGraph
-from . import fronts
+from . import around, fronts
 from .grouping import probability
 from .redrawn import SAID, Bundles, nearest_of, pixels_of
 
@@ -31,12 +32,14 @@ _FROM, _TO = 2.0, 16.0  # px from a junction between which a pencil stroke is pa
 def score(graph: PlanarGraph, pairs: Array, bundles: Bundles) -> Array:
     """(K,) float32 log-odds of joining each of the (K, 2) pairs against ending both.
 
-    The network says how often each pair is one line, whatever the others are. The involution that
-    is most probable in all needs weights from which these probabilities follow: on a tree they are
-    p (1 - p) / (e e') with the probabilities e that a half-branch ends (Bethe's approximation of
-    monomers and dimers).
+    The networks say how often each pair is one line, whatever the others at its junction are. The
+    involution that is most probable in all needs weights from which these probabilities follow: on
+    a tree they are p (1 - p) / (e e') with the probabilities e that a half-branch ends (Bethe's
+    approximation of monomers and dimers).
     """
-    one = probability(features(graph, pairs, bundles), "goes_on")
+    rows = features(graph, pairs, bundles)
+    again = seen_again(graph, pairs, rows, probability(rows, "goes_on"))
+    one = probability(again, "goes_on_again")
     one = np.clip(one, _LEAST, 1 - _LEAST)
     going = np.zeros(2 * graph.branch_count)
     for half in pairs.T:
@@ -71,6 +74,14 @@ def features(graph: PlanarGraph, pairs: Array, bundles: Bundles) -> Array:
     in_front = fronts.fronts(graph, pairs, turn, straightest, pen)
     through = _drawn_through(graph, pairs, bundles)
     return np.column_stack([*scaled, *extra, *through, *in_front, _as_clean(graph, pairs)])
+
+
+def seen_again(graph: PlanarGraph, pairs: Array, rows: Array, first: Array) -> Array:
+    """(K, F + around.FEATURES) float64: the `features` of all pairs, and what the answers (K,) of a
+    first look at them say around each."""
+    assert graph.widths is not None, "a redrawn graph is measured"
+    pen = float(np.median(graph.widths))
+    return np.column_stack([rows, around.features(graph, pairs, first, pen)])
 
 
 def _as_clean(graph: PlanarGraph, pairs: Array) -> Array:

@@ -11,6 +11,7 @@ from involute.command.cli import main
 from involute.engine import Drawing, InvoluteError, Settings, vectorize
 from involute.engine.decisions import carried
 from involute.engine.formats import drawing_json
+from involute.engine.rough.unchanged import unchanged
 from involute.engine.sequence.follow import reverse
 from involute.engine.soundness import check_drawing
 
@@ -86,6 +87,28 @@ def test_the_rest_of_the_page_stays(rough):
     assert far
     for points in far:
         assert any(np.array_equal(points, s.points) for s in one.strokes)
+
+
+@pytest.mark.parametrize("curve", ["polyline", "bezier"])
+def test_lines_that_hardly_change_keep_their_strokes(rough, curve):
+    """The page's typical pressure and width change with every line, and all strokes with them."""
+    old = rough.restroked(replace(ROUGH, curve=curve)).strokes
+
+    def moved(stroke, by, wider):
+        handles = None if stroke.handles is None else stroke.handles + np.float32(by)
+        points, widths = stroke.points + np.float32(by), stroke.widths * np.float32(wider)
+        branches = stroke.branches + 2
+        return replace(stroke, points=points, widths=widths, handles=handles, branches=branches)
+
+    for before, now in zip(old, unchanged(old, [moved(s, 0.1, 1.02) for s in old]), strict=True):
+        assert now.points is before.points
+        assert now.widths is before.widths
+        np.testing.assert_array_equal(now.branches, before.branches + 2)
+    for by, wider in ((1.0, 1.0), (0.0, 1.3)):
+        changed = [moved(s, by, wider) for s in old]
+        assert unchanged(old, changed) == tuple(changed)
+    assert unchanged(old[:1], [*old, old[0]])[-1] is old[0]
+    assert unchanged((), old) == old
 
 
 def test_lines_of_a_sequence_keep_direction_and_ink(rough):

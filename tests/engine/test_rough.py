@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from involute.engine import Drawing, Settings, vectorize
 from involute.engine.graph.at_vertices import directions
-from involute.engine.rough import fronts
+from involute.engine.rough import around, fronts
 from involute.engine.rough.merging import one_line
 from involute.engine.routing.candidates import candidate_pairs
 from involute.synthesis.true_graph import graph_from_strokes
@@ -183,3 +183,25 @@ def test_the_rim_of_what_is_in_front_goes_on() -> None:
     assert not straightest[rim]
     assert share[rim] == 1.0
     assert share[corner & ~rim].max() < 0.6
+
+
+def test_a_line_closes_round_the_face_that_it_bounds() -> None:
+    """At one corner of a box nobody can tell what goes on; the others around its face can."""
+    box = np.array([[100, 100], [300, 100], [300, 300], [100, 300], [100, 100]], float)
+    behind = [
+        np.array([a, b], float) for a, b in (([20, 160], [100, 160]), ([300, 230], [380, 230]))
+    ]
+    behind.append(np.array([[300, 100], [400, 104]], float))
+    graph, true = graph_from_strokes([box, *behind])
+    pairs = candidate_pairs(graph)
+    pairs = pairs[graph.degrees[graph.half_vertex[pairs[:, 0]]] >= 3]
+    a, b = pairs.T
+    right = true[a] == b
+    corner = np.hypot(*(graph.vertices[graph.half_vertex[a]] - [300, 100]).T) < 2
+    one = np.where(corner, 0.4, np.where(right, 0.95, 0.02))
+    rows = around.features(graph, pairs, one, 2.0)
+    assert rows.shape == (len(pairs), around.FEATURES)
+    closes, others_go_on = rows[:, 12] > 0, rows[:, -2]
+    assert (closes == (corner & right)).all()
+    assert others_go_on[corner & right] == 1.0
+    assert others_go_on[corner & ~right].max() < 0.7

@@ -276,7 +276,8 @@ def test_all_maps_and_the_features_reach_the_engine(tmp_path):
         assert getattr(maps, name).shape == ink.shape
     plain = trace_maps(ink, load(tmp_path / "net.onnx", "cpu"), lambda fraction: None)
     assert plain.features is None
-    np.testing.assert_array_equal(plain.apart, maps.apart)
+    near = ink > 0  # farther away the features' maps go on, and the others end
+    np.testing.assert_allclose(plain.apart[near], maps.apart[near], atol=1e-5)
     # The page as the network's grid, which is counted from the ink, has it.
     down, right = shift_of(ink)
     sides = [(p, -(n + p) % 64) for n, p in zip(ink.shape, (down, right), strict=True)]

@@ -1,8 +1,9 @@
 """Rough pages whose clean lines are known, traced as pencil strokes with our own stages.
 
-Four kinds: sketches, every line of which is said by several strokes; keyframes as animators draw
-them, dark and nearly single, with the pencil lifted at corners and lines that run on beyond them;
-and clean pages, of which nothing is to be bundled, hatching and fur above all.
+Sketches, every line of which is said by several strokes; keyframes as animators draw them, dark and
+nearly single, with the pencil lifted at corners and lines that run on beyond them, whole figures
+most of all, and parts of larger pages; and clean pages, of which nothing is to be bundled, hatching
+and fur above all.
 """
 
 from __future__ import annotations
@@ -23,16 +24,20 @@ from involute.engine.scan import read_scan
 from involute.engine.settings import Settings
 from involute.engine.values import PlanarGraph
 from involute.synthesis.composed_pages import Library
+from involute.synthesis.line_art import pieces, resample
 from involute.synthesis.media import MEDIA, draw, line_spacing, sample
 from involute.synthesis.pencilling import Hand
 from involute.synthesis.rough_drawings import (
     MARGIN,
+    RoughDrawing,
+    animated,
     any_pen,
     contours,
     is_too_dense,
     keyframing,
     meant_lines,
     patch,
+    rough_drawing,
     sketched,
     straightened,
 )
@@ -42,16 +47,18 @@ Array = np.ndarray
 
 KINDS = (  # by number, in turn
     "sketch",
-    "keyframe",
+    "animated",
     "hatched",
+    "animated",
     "keyframe",
-    "sketch",
-    "keyframe",
+    "animated",
     "clean",
-    "sketch",
+    "part",
 )
 EACH = (2, 4, 7)  # strokes a line of held-out sketches, in turn
 _LEAST = 300  # px
+_PART = 576  # px; side of a part of a large page
+_BARE = 0.6  # share of the figures that a drawing program made: on no paper
 _HATCHED = 420  # px; side of a page of hatching
 _CLEAN = ("technical pen", "ink", "pencil", "soft pencil", "marker", "ballpoint", "fineliner")
 
@@ -129,6 +136,11 @@ def rough_page(
     kind = KINDS[number % len(KINDS)]
     if kind == "hatched":
         return hatched(rng)
+    if kind in ("animated", "part"):
+        drawing = animated(rng, library) if kind == "animated" else _part(rng, library)
+        bare = kind == "animated" and rng.random() < _BARE
+        image = _gray(1 - drawing.ink) if bare else on_sheet(rng, drawing.ink)
+        return _traced(image, drawing.lines, drawing.spread, 2.0)
     lines = meant_lines(rng, library, kind)
     size = max(int(np.ceil(np.max([line.max(0) for line in lines]) + MARGIN)), _LEAST)
     if is_too_dense(lines, kind, size):
@@ -147,6 +159,16 @@ def rough_page(
         ink = _drawn_once(rng, lines, spacing, size)
     spread, strokes = (hand.spread, hand.strokes) if hand else (0.0, 1.0)
     return _traced(on_sheet(rng, ink), lines, spread, strokes)
+
+
+def _part(rng: np.random.Generator, library: Library) -> RoughDrawing:
+    """A part of a large keyframe or sketch, the lines of which end at its rim."""
+    kind = ("keyframe", "sketch")[int(rng.integers(2))]
+    drawing = rough_drawing(rng, library, kind, _PART)
+    dense = [resample(line.astype(np.float32), 2.0) for line in drawing.lines]
+    inside = [((line > 0) & (line < _PART)).all(1) for line in dense]
+    runs = [run for line, kept in zip(dense, inside, strict=True) for run in pieces(line, kept)]
+    return replace(drawing, lines=[run for run in runs if len(run) > 3])
 
 
 def hatched(rng: np.random.Generator) -> RoughPage:
@@ -196,7 +218,12 @@ def on_sheet(rng: np.random.Generator, ink: Array) -> Array:
         if rng.random() < 0.4:
             gray = gray * shadow(rng, len(ink))
         gray = scan(rng, gray)
-    return np.round(np.clip(gray, 0, 1) * 255).astype(np.uint8)
+    return _gray(gray)
+
+
+def _gray(page: Array) -> Array:
+    """(H, W) uint8 of a page in [0, 1]."""
+    return np.round(np.clip(page, 0, 1) * 255).astype(np.uint8)
 
 
 def _traced(image: Array, lines: list[Array], spread: float, each: float) -> RoughPage | None:
