@@ -25,6 +25,7 @@ RUNS = {
     "routing": ("routing.train_routing", "train the routing network, or go on"),
     "routing-export": ("routing.export_routing", "calibrate it and write what the engine ships"),
     "routing-geometric": ("routing.geometric_fit", "fit the weights of the geometric router"),
+    "corners": ("corners.train_corners", "learn where the pen was lifted, or go on"),
     "undrawn": ("undrawn.train_undrawn", "learn which branches nobody drew"),
     "second-lines": ("second_lines.train_second_lines", "learn which runs carry two strokes"),
     "rough": ("rough.train_rough", "learn how many pencil strokes become one line"),

@@ -1,9 +1,10 @@
 """Learn at which corners the pen was lifted, for `engine/routing/lifting.py`.
 
-`python -m training.corners.train_corners --data DIR --run RUN --pages 800` draws and traces pages
-with the lifts of many hands (`lift_pages`; RUN/train.npz and RUN/held_out.npz, started again it
-goes on), trains a small network in a minute and writes engine/weights/corners.npz; the held-out
-pages choose when to stop. The figures go to RUN/log.json.
+`python -m training run corners --data DIR --run RUN --pages 800` draws and traces pages with the
+lifts of many hands (`lift_pages`; RUN/train.npz and RUN/held_out.npz, started again it goes on),
+trains a small network in a minute and writes engine/weights/corners.npz; the held-out pages choose
+when to stop. With `--start engine/weights/corners.npz` the network that ships is trained on. The
+figures go to RUN/log.json.
 """
 
 from __future__ import annotations
@@ -26,9 +27,12 @@ Array = np.ndarray
 Tensor = torch.Tensor
 
 CLUES = 8  # numbers that are kept of each corner
-_SEE, _JUDGE = (48,), (24,)  # widths of the hidden layers
+_SEE, _JUDGE = (192,), (64,)  # widths of the hidden layers
 _PAGES = 24  # pages of a batch
 _DECIDED = 0.3  # share of the pages on which a user has decided some corners
+# What a page shows is moved alike at all its corners, in spreads of each number; those that are of
+# the whole page, the last of the evidence, by more: else the pages are learnt by heart.
+_MOVED, _PAGE_MOVED, _OF_PAGE = 0.2, 0.5, 15
 
 
 class Lifts(nn.Module):
@@ -92,27 +96,48 @@ def weights(model: Lifts) -> dict[str, Array]:
     return {name: np.ascontiguousarray(value, np.float32) for name, value in found.items()}
 
 
-def train(data: Corners, held: Corners, steps: int, seed: int, dropout: float) -> Lifts:
-    """The weights that are best on the held-out pages."""
-    torch.manual_seed(seed)
+def untrained(data: Corners, dropout: float) -> Lifts:
+    """A new network for such evidence."""
+    evidence = torch.from_numpy(data.evidence.astype(np.float32))
+    return Lifts(evidence.mean(0), evidence.std(0).clamp(min=0.02), dropout)
+
+
+def restored(path: Path, dropout: float) -> Lifts:
+    """The network whose weights are in a file, to be trained on; where it is narrower than those
+    of today, it gets units that nothing hears yet."""
+    with np.load(path) as file:
+        saved = {name: torch.from_numpy(file[name]) for name in file.files}
+    model = Lifts(saved["mean"], saved["spread"], dropout)
+    for name in ("see", "judge"):
+        linear = [layer for layer in getattr(model, name) if isinstance(layer, nn.Linear)]
+        for k, layer in enumerate(linear):
+            weight, bias = saved[f"{name}_weight{k}"].T, saved[f"{name}_bias{k}"]
+            units, heard = weight.shape
+            layer.weight.data[:, heard:] = 0
+            layer.weight.data[:units, :heard] = weight
+            layer.bias.data[:units] = bias
+    return model
+
+
+def train(model: Lifts, data: Corners, held: Corners, steps: int, rate: float, seed: int) -> Lifts:
+    """The weights that are best on the held-out pages, those it is given among them."""
     rng = np.random.default_rng(seed)
-    torch.set_num_threads(1)
     evidence, truth = torch.from_numpy(data.evidence.astype(np.float32)), data.truth
-    spread = evidence.std(0).clamp(min=0.02)
-    model = Lifts(evidence.mean(0), spread, dropout)
-    rate = 2e-3
     optimizer = torch.optim.AdamW(model.parameters(), lr=rate, weight_decay=0.1)
     plan = torch.optim.lr_scheduler.OneCycleLR(optimizer, rate, total_steps=steps)
     order = np.argsort(data.page, kind="stable")
     bounds = np.searchsorted(data.page[order], np.arange(len(data.habit) + 1))
     full = np.flatnonzero(np.diff(bounds) > 0)
-    best, kept = np.inf, {}
+    kept = _copied(model)
+    best = figures(model.eval(), held)["of pages"]
+    model.train()
     for step in range(steps):
         pages = rng.choice(full, _PAGES)
         rows = np.concatenate([order[bounds[p] : bounds[p + 1]] for p in pages])
         number = np.repeat(np.arange(len(pages)), np.diff(bounds)[pages])
         said = truth[rows].astype(np.float32)
-        loss = _loss(rng, model, evidence[rows], number, said)
+        seen = evidence[rows] + _moved(model.spread)[number]
+        loss = _loss(rng, model, seen, number, said)
         optimizer.zero_grad()
         loss.backward()
         nn.utils.clip_grad_norm_(model.parameters(), 1.0)
@@ -123,11 +148,21 @@ def train(data: Corners, held: Corners, steps: int, seed: int, dropout: float) -
             figure = figures(model, held)
             model.train()
             print(step + 1, round(float(loss.detach()), 3), figure, flush=True)
-            if figure["loss"] < best:
-                best = figure["loss"]
-                kept = {name: value.clone() for name, value in model.state_dict().items()}
+            if figure["of pages"] < best:
+                best, kept = figure["of pages"], _copied(model)
     model.load_state_dict(kept)
     return model.eval()
+
+
+def _moved(spread: Tensor) -> Tensor:
+    """(pages, F) by how much the evidence of each page is moved, at random."""
+    amount = torch.full_like(spread, _MOVED)
+    amount[-_OF_PAGE:] = float(np.hypot(_MOVED, _PAGE_MOVED))
+    return amount * spread * torch.randn(_PAGES, len(spread))
+
+
+def _copied(model: Lifts) -> dict[str, Tensor]:
+    return {name: value.clone() for name, value in model.state_dict().items()}
 
 
 def _loss(
@@ -142,11 +177,15 @@ def _loss(
     target = torch.from_numpy(truth)[known]
     with_page, alone = model(seen, page, torch.from_numpy(decided))
     loss = nn.functional.binary_cross_entropy_with_logits
-    # A page with many corners counts more than one with few, but not as much more.
-    size = torch.bincount(page[known], minlength=_PAGES).clamp(min=1).float()
-    weight = (size**-0.5)[page[known]]
-    weight = weight / weight.mean()
+    weight = torch.from_numpy(_share(page[known].numpy()))
     return loss(with_page[known], target, weight) + 0.3 * loss(alone[known], target, weight)
+
+
+def _share(page: Array) -> Array:
+    """(C,) float32, 1 on the mean: a page with many corners counts more than one with few, but not
+    as much more."""
+    weight = np.bincount(page)[page] ** -0.5
+    return np.asarray(weight / weight.mean(), np.float32)
 
 
 def figures(model: Lifts, data: Corners) -> dict[str, float]:
@@ -160,6 +199,7 @@ def figures(model: Lifts, data: Corners) -> dict[str, float]:
     habit = data.habit[data.page]
     found = {
         "loss": _nll(score[known], truth[known]),
+        "of pages": _nll(score[known], truth[known], _share(data.page[known])),
         "alone": _nll(alone[known], truth[known]),
     }
     turned = data.evidence[:, 1] > np.radians(35)
@@ -178,8 +218,8 @@ def figures(model: Lifts, data: Corners) -> dict[str, float]:
     return {name: round(value, 3) for name, value in found.items()}
 
 
-def _nll(score: Array, truth: Array) -> float:
-    return float(np.logaddexp(0, np.where(truth > 0, -score, score)).mean())
+def _nll(score: Array, truth: Array, weight: Array | float = 1.0) -> float:
+    return float((weight * np.logaddexp(0, np.where(truth > 0, -score, score))).mean())
 
 
 def main(argv: Sequence[str] | None = None) -> None:
@@ -189,7 +229,9 @@ def main(argv: Sequence[str] | None = None) -> None:
     parser.add_argument("--run", type=Path, required=True)
     parser.add_argument("--pages", type=int, default=800, help="and an eighth of that, held out")
     parser.add_argument("--jobs", type=int, default=1, help="parallel processes")
-    parser.add_argument("--steps", type=int, default=500)
+    parser.add_argument("--steps", type=int, default=3000)
+    parser.add_argument("--rate", type=float, default=2e-3, help="highest learning rate")
+    parser.add_argument("--start", type=Path, help="corners.npz to start from")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--dropout", type=float, default=0.3)
     parser.add_argument("--out", type=Path, default=WEIGHTS)
@@ -198,7 +240,10 @@ def main(argv: Sequence[str] | None = None) -> None:
     work = {"data": args.data, "seed": args.seed, "jobs": args.jobs}
     data = gathered(args.run / "train.npz", args.pages, **work)
     held = gathered(args.run / "held_out.npz", max(args.pages // 8, 1), held_out=True, **work)
-    model = train(data, held, args.steps, args.seed, args.dropout)
+    torch.manual_seed(args.seed)
+    torch.set_num_threads(1)
+    first = restored(args.start, args.dropout) if args.start else untrained(data, args.dropout)
+    model = train(first, data, held, args.steps, args.rate, args.seed)
     found = figures(model, held)
     print(json.dumps(found, indent=1))
     (args.run / "log.json").write_text(json.dumps(found, indent=1), "utf-8")
