@@ -6,13 +6,8 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 import pytest
-from hypothesis import settings
 from involute.engine.values import PlanarGraph
 from involute.synthesis.true_graph import graph_from_strokes
-
-# The machine's speed is no property of the code.
-settings.register_profile("engine", deadline=None, max_examples=40)
-settings.load_profile("engine")
 
 
 def _stroke(rng: np.random.Generator, drawn: list[np.ndarray]) -> np.ndarray:
