@@ -59,6 +59,7 @@ def with_second_lines(
     measured = graph.widths is not None and graph.strength is not None
     if not measured or settings.router == "geometric" or not WEIGHTS.exists():
         return graph, routing
+    load(WEIGHTS)  # before anything is found: damaged ones are told on every page
     runs = find_runs(graph, routing.partner)
     if not len(runs):
         return graph, routing

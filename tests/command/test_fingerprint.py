@@ -26,8 +26,8 @@ TRACE = """
 import sys
 from program.command.cli import main
 sys.exit(main(["trace", sys.argv[1], "-o", sys.argv[2], "--format", "json", "--resume",
-               "--corners", "0", "--drawing", "rough", "--report", sys.argv[3],
-               "--provider", sys.argv[4]]))
+               "--corners", "0", "--report", sys.argv[3],
+               "--provider", sys.argv[4], "--drawing", sys.argv[5]]))
 """
 FRAMES = """
 import sys
@@ -105,7 +105,7 @@ def test_every_weight_and_every_source_is_in_the_fingerprint(engine: Path) -> No
 
 
 def resumed_batch(engine: Path) -> bool:
-    assert python(engine, TRACE, "out", "report.json", "auto").returncode == 0
+    assert python(engine, TRACE, "out", "report.json", "auto", "rough").returncode == 0
     report = json.loads((engine.parents[1] / "report.json").read_text("utf-8"))
     return report["images"][0]["resumed"]
 
@@ -127,7 +127,8 @@ def test_weights_of_the_same_size_make_drawings_anew(
 def test_damaged_weights_are_said_in_one_sentence(engine: Path, name: str) -> None:
     change(engine / "weights" / name)
     provider = "lean" if "lean" in name else "auto"
-    done = python(engine, TRACE, "out", "report.json", provider)
+    drawing = "clean" if "second" in name else "rough"
+    done = python(engine, TRACE, "out", "report.json", provider, drawing)
     assert done.returncode == 1
     assert f"The weights in {name} are damaged; reinstall Involute" in done.stderr
     assert "Traceback" not in done.stderr
