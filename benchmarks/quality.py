@@ -51,7 +51,7 @@ _TITLES = {
 # Of what a column shows, the best is that with the least of this.
 _BEST: dict[str, Callable[[float], float]] = {
     **dict.fromkeys(("chamfer", "length_diff", "false_joins"), abs),
-    **dict.fromkeys(("crossings", "precision", "f1", "routing"), lambda share: -share),
+    **dict.fromkeys(("branching", "precision", "f1", "routing"), lambda share: -share),
     "density": lambda ratio: abs(math.log(ratio)),
 }
 
@@ -131,8 +131,10 @@ def figures(results: Iterable[Verdict]) -> dict[str, float]:
 
 
 def readme_table(record: Record) -> str:
-    """The README's table: its columns, the best of each in bold."""
-    columns = {name: column for name, column in COLUMNS.items() if name != "3+ branches"}
+    """The README's table: its columns, the best of each in bold; crossings are those that a method
+    can see, of three branches and more."""
+    columns = COLUMNS | {"crossings": COLUMNS["3+ branches"]}
+    del columns["3+ branches"]
     names = {_TITLES.get(method, method): own for method, own in record.figures.items() if own}
     rows = [[name, *(form.format(own[key]) for key, form in columns.values())]
             for name, own in names.items() if name]  # fmt: skip
