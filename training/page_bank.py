@@ -11,6 +11,10 @@ from multiprocessing import get_context
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
+import numpy as np
+
+Array = np.ndarray
+Labelled = tuple[Array, Array]
 Result = TypeVar("Result")
 
 
@@ -63,3 +67,27 @@ class PageBank(Generic[Result]):
         part = self.path.with_suffix(".part.npz")
         self.save(part, results, tried)
         part.replace(self.path)
+
+
+def labelled_rows(
+    path: Path,
+    pages: int,
+    jobs: int,
+    make: Callable[[int], Labelled | None],
+    prepare: Callable[..., None],
+    work: tuple[Any, ...],
+    piece: int,
+) -> Labelled:
+    """Features (N, F) and labels (N,) of so many pages, from a file or made; see `PageBank`."""
+    found = PageBank(path, _read, _save, piece).filled(pages, make, jobs, prepare, work)
+    return np.concatenate([rows for rows, _ in found]), np.concatenate([own for _, own in found])
+
+
+def _read(path: Path) -> tuple[list[Labelled], int]:
+    with np.load(path) as saved:
+        return [(saved["rows"], saved["labels"])], int(saved["pages"])
+
+
+def _save(path: Path, found: list[Labelled], pages: int) -> None:
+    rows, labels = (np.concatenate(part) for part in zip(*found, strict=True))
+    np.savez_compressed(path, rows=rows, labels=labels, pages=pages)

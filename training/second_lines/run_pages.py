@@ -25,12 +25,11 @@ from ...synthesis.composed_pages import Library, loosened
 from ...synthesis.held_out_pages import endless
 from ...synthesis.pen_lifts import Habit, lifted
 from ...synthesis.shared_runs import with_shared_runs
-from ..page_bank import PageBank
+from ..page_bank import Labelled, labelled_rows
 from ..routing.hand_drawn import MARGIN, in_window
 from ..routing.traced import look_ink, look_scan, on_canvas
 
 Array = np.ndarray
-Labelled = tuple[Array, Array]
 
 ONE, TOUCH, CROSS = 0, 1, 2  # what a run carries: one stroke, two that touch, two that cross
 _KINDS = (0.4, 0.25)  # shares of drawings and of tangles
@@ -53,18 +52,7 @@ def gathered(path: Path, pages: int, jobs: int, work: tuple) -> Labelled:
 
     work: folder of the drawings, whether they are held out, seed.
     """
-    found = PageBank(path, _read, _save, _PIECE).filled(pages, _runs, jobs, _prepare, work)
-    return np.concatenate([rows for rows, _ in found]), np.concatenate([own for _, own in found])
-
-
-def _read(path: Path) -> tuple[list[Labelled], int]:
-    with np.load(path) as saved:
-        return [(saved["rows"], saved["labels"])], int(saved["pages"])
-
-
-def _save(path: Path, found: list[Labelled], pages: int) -> None:
-    rows, labels = (np.concatenate(part) for part in zip(*found, strict=True))
-    np.savez_compressed(path, rows=rows, labels=labels, pages=pages)
+    return labelled_rows(path, pages, jobs, _runs, _prepare, work, _PIECE)
 
 
 def _prepare(data: Path, held_out: bool, seed: int) -> None:

@@ -28,7 +28,7 @@ from torch import Tensor, nn
 
 from .. import digests, lineage
 from ..loop import Schedule, Training
-from ..page_bank import PageBank
+from ..page_bank import Labelled, labelled_rows
 from ..routing.labels import labelled, unowned
 from ..routing.traced import MOST_FALSE, look_ink, look_scan, on_canvas
 
@@ -64,20 +64,9 @@ def main(argv: Sequence[str] | None = None) -> None:
     digests.note(args.out, args.run)
 
 
-def gathered(path: Path, pages: int, jobs: int, work: tuple) -> tuple[Array, Array]:
+def gathered(path: Path, pages: int, jobs: int, work: tuple) -> Labelled:
     """Features (N, F) and labels (N,) of the branches of so many pages, from a file or made."""
-    found = PageBank(path, _read, _save, _PIECE).filled(pages, _branches, jobs, _prepare, work)
-    return np.concatenate([rows for rows, _ in found]), np.concatenate([own for _, own in found])
-
-
-def _read(path: Path) -> tuple[list[tuple[Array, Array]], int]:
-    with np.load(path) as saved:
-        return [(saved["rows"], saved["labels"])], int(saved["pages"])
-
-
-def _save(path: Path, found: list[tuple[Array, Array]], pages: int) -> None:
-    rows, labels = (np.concatenate(part) for part in zip(*found, strict=True))
-    np.savez_compressed(path, rows=rows, labels=labels, pages=pages)
+    return labelled_rows(path, pages, jobs, _branches, _prepare, work, _PIECE)
 
 
 def _prepare(data: Path, held_out: bool, seed: int) -> None:
@@ -87,7 +76,7 @@ def _prepare(data: Path, held_out: bool, seed: int) -> None:
     _library, _seed = Library.load(data, held_out), seed
 
 
-def _branches(number: int) -> tuple[Array, Array]:
+def _branches(number: int) -> Labelled:
     """The branches of one page; none when it is no example."""
     rng, settings = np.random.default_rng((_seed, number)), Settings()
     strokes = on_canvas(loosened(rng, _library.page(rng)))
